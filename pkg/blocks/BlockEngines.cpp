@@ -1,0 +1,153 @@
+// yade-blocks, GPL-2.0-or-later
+#include "BlockEngines.hpp"
+#include <blocks/kernel/CentralDifference.hpp>
+#include <blocks/kernel/NodalForces.hpp>
+#include <blocks/kernel/TimeStep.hpp>
+#include <core/Body.hpp>
+#include <core/BodyContainer.hpp>
+#include <core/EnergyTracker.hpp>
+#include <core/Omega.hpp>
+#include <lib/base/Logging.hpp>
+#include <omp.h>
+
+namespace yade {
+
+CREATE_LOGGER(BlockTimeStepper);
+CREATE_LOGGER(BlockIntegrator);
+
+BlockTimeStepper::~BlockTimeStepper() = default;
+BlockForces::~BlockForces()           = default;
+BlockIntegrator::~BlockIntegrator()   = default;
+
+int threadsFor(const BlockModel& model, int ompThreads)
+{
+	constexpr int zonesPerThread = 3000; // below, starting a thread costs more than it saves
+	const int     available      = ompThreads > 0 ? std::min(ompThreads, omp_get_max_threads()) : omp_get_max_threads();
+	return std::max(1, std::min(available, model.assembly.zoneCount() / zonesPerThread));
+}
+
+void BlockTimeStepper::computeTimeStep(Scene* scene)
+{
+	BlockModel& model = modelOf(scene);
+	model.throwComplaint();
+	if (model.stiffnessVersion == doneVersion && scene->dt == doneDt && safety == doneSafety && quasiStatic == doneQuasiStatic) return;
+	blocks::require(safety > 0 && safety <= 0.95, "BlockTimeStepper.safety must lie in (0, 0.95]", safety);
+
+	const auto stiffness = blocks::nodalStiffness(model.assembly);
+	stableStep           = blocks::stableTimeStep(model.assembly, stiffness, model.assembly.mass);
+	if (quasiStatic) {
+		blocks::require(scene->dt > 0 && std::isfinite(scene->dt), "O.dt must be positive and finite [s]", scene->dt);
+		blocks::scaleInertia(model.assembly, stiffness, scene->dt, safety);
+	} else {
+		scene->dt              = safety * stableStep;
+		model.assembly.inertia = model.assembly.mass;
+		model.assembly.updateMobility();
+	}
+	doneVersion     = model.stiffnessVersion;
+	doneDt          = scene->dt;
+	doneSafety      = safety;
+	doneQuasiStatic = quasiStatic;
+}
+
+void BlockForces::action()
+{
+	BlockModel& model = modelOf(scene);
+	model.throwComplaint();
+	blocks::BlockAssembly& a       = model.assembly;
+	const int              threads = threadsFor(model, ompThreads);
+	blocks::computeJointForces(a, threads);
+	blocks::gatherForces(a, threads);
+
+	if (!scene->trackEnergy) return;
+	if (!dissipation.running()) {
+		dissipation.start(a);
+		dissipation.friction = friction, dissipation.fracture = fracture;
+	} else dissipation.book(a);
+	scene->energy->set(friction = dissipation.friction, "blockFriction", frictionId);
+	scene->energy->set(fracture = dissipation.fracture, "blockFracture", fractureId);
+}
+
+void BlockIntegrator::postLoad(BlockIntegrator&)
+{
+	if (damping == "local") law.kind = blocks::Damping::Kind::local;
+	else if (damping == "adaptive") law.kind = blocks::Damping::Kind::adaptive;
+	else if (damping == "none") law.kind = blocks::Damping::Kind::none;
+	else throw std::invalid_argument("BlockIntegrator.damping must be 'local', 'adaptive' or 'none', got '" + damping + "'");
+	blocks::require(alpha >= 0 && alpha < 1, "BlockIntegrator.alpha must lie in [0, 1)", alpha);
+	blocks::require(watchPeriod >= 0, "BlockIntegrator.watchPeriod must not be negative", watchPeriod);
+	law.alpha      = alpha;
+	checkedVersion = 0;
+}
+
+void BlockIntegrator::checkStep(BlockModel& model)
+{
+	const blocks::BlockAssembly& a = model.assembly;
+	for (size_t pair = 0; pair < a.pairs.size(); ++pair)
+		if (!(a.joints[pair].kn > 0))
+			throw std::runtime_error("the joint between blocks " + std::to_string(a.pairs[pair].block[0]) + " and " + std::to_string(a.pairs[pair].block[1])
+			                         + " has no properties: O.engines needs an InteractionLoop with Ip2_BlockMat_BlockMat_JointPhys before BlockIntegrator");
+	blocks::require(scene->dt > 0 && std::isfinite(scene->dt), "O.dt must be positive and finite [s]", scene->dt);
+	const Real share = scene->dt / blocks::stableTimeStep(a, blocks::nodalStiffness(a), a.inertia), limit = blocks::largestSafety(law);
+	blocks::require(share <= limit * (1 + 1e-9),
+	                "O.dt as a fraction of the stable time step must not exceed " + blocks::shown(limit) + " with damping='" + damping
+	                        + "' (smaller O.dt or BlockTimeStepper.safety)",
+	                share);
+	checkedVersion = model.stiffnessVersion;
+	checkedDt      = scene->dt;
+}
+
+void BlockIntegrator::action()
+{
+	BlockModel& model = modelOf(scene);
+	model.throwComplaint();
+	if (model.stiffnessVersion != checkedVersion || scene->dt != checkedDt) checkStep(model);
+	if (watchPeriod > 0 && scene->iter % watchPeriod == 0) watchStability(model);
+
+	blocks::BlockAssembly& a       = model.assembly;
+	const bool             account = scene->trackEnergy;
+	if (account) { // of the time of the forces, before anything moves
+		scene->energy->set(blocks::zoneEnergy(a), "blockZones", zonesId);
+		scene->energy->set(blocks::jointEnergy(a), "blockJoints", jointsId);
+	}
+	const Real loadWork = account ? blocks::loadWork(a) : 0;
+	law.c                       = viscosity;
+	const blocks::StepWork work = blocks::integrate(a, law, scene->dt, scene->time, account, threadsFor(model, ompThreads));
+	viscosity                   = law.c;
+	if (account) {
+		scene->energy->set(work.kinetic, "blockKinetic", kineticId);
+		scene->energy->set(dissipated += pending + work.dampingBefore, "blockDamping", dampingId);
+		scene->energy->set(-blocks::groupWork(a) - loadWork, "blockWork", workId);
+		pending = work.dampingAfter;
+	}
+	for (int i = 0; i < a.blockCount(); ++i) {
+		const blocks::Vec2 centroid                            = a.centroid(i);
+		(*scene->bodies)[model.firstBody + i]->state->pos = Vector3r(centroid.x(), centroid.y(), 0);
+	}
+}
+
+void BlockIntegrator::watchStability(BlockModel& model)
+{
+	const long step    = scene->iter;
+	const auto verdict = watch.look(model.assembly, step, scene->time);
+	if (verdict.stable) return;
+
+	string    message = "unstable at step " + std::to_string(step) + ", block " + std::to_string(verdict.block) + ": " + verdict.reason;
+	const long good   = watch.restore(model.assembly);
+	if (good >= 0) {
+		scene->iter = good;
+		scene->time = watch.goodTime();
+		message += "; the last good state, of step " + std::to_string(good) + ", is put back";
+		if (!rescueFile.empty()) {
+			const int subStep = scene->subStep;
+			scene->subStep    = -1; // saved as between two steps
+			Omega::instance().saveSimulation(rescueFile, /*quiet*/ true);
+			scene->subStep = subStep;
+			message += " and saved as " + rescueFile;
+		}
+	}
+	throw std::runtime_error(message);
+}
+
+YADE_PLUGIN((BlockTimeStepper)(BlockForces)(BlockIntegrator));
+
+} // namespace yade

@@ -1,0 +1,114 @@
+// yade-blocks, GPL-2.0-or-later
+#pragma once
+#include "BlockModel.hpp"
+#include <blocks/kernel/Damping.hpp>
+#include <blocks/kernel/Energy.hpp>
+#include <blocks/kernel/StabilityWatch.hpp>
+#include <core/GlobalEngine.hpp>
+#include <core/TimeStepper.hpp>
+
+namespace yade {
+
+/// The scene's model, looked up once per scene.
+class ModelOfScene {
+public:
+	BlockModel& operator()(const Scene* scene)
+	{
+		if (scene != seen || !model) model = &BlockModel::of(scene), seen = scene;
+		return *model;
+	}
+
+private:
+	const Scene* seen  = nullptr;
+	BlockModel*  model = nullptr;
+};
+
+/// Threads worth starting for so many zones.
+int threadsFor(const BlockModel&, int ompThreads);
+
+class BlockTimeStepper : public TimeStepper {
+public:
+	virtual ~BlockTimeStepper();
+	void computeTimeStep(Scene*) override;
+	Real stable(); ///< for Python
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(BlockTimeStepper, TimeStepper,
+		"Makes the time step stable (paper, Eq. 10, with a nodal stiffness that is a bound and not an estimate). Stands behind InteractionLoop, which creates the joints whose stiffness counts. "
+		"Works only when the stiffness, the step or its own attributes have changed.\n\n"
+		"quasiStatic: ``O.dt`` is the user's and every grid point gets the mass with which its limit is O.dt/safety (gravity and loads keep the true masses). Otherwise masses are true and O.dt is set to safety times the limit.",
+		((Real, safety, 0.7, , "Time step as a fraction of the stable one; at most 0.95/sqrt(1+alpha) with local damping, else 0.95."))
+		((bool, quasiStatic, true, , "Scaled masses at the user's O.dt instead of the largest stable O.dt at true masses."))
+		((Real, stableStep, 0, Attr::readonly, "Limit of the time step with the true masses, as computed last [s]."))
+		,
+		/*ctor*/,
+		/*py*/
+	);
+	// clang-format on
+	DECLARE_LOGGER;
+
+private:
+	ModelOfScene modelOf;
+	long         doneVersion = 0;
+	Real         doneDt = 0, doneSafety = 0;
+	bool         doneQuasiStatic = false;
+};
+REGISTER_SERIALIZABLE(BlockTimeStepper);
+
+class BlockForces : public GlobalEngine {
+public:
+	virtual ~BlockForces();
+	void action() override;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(BlockForces, GlobalEngine,
+		"Unbalanced force of every grid point: loads, joint stresses times areas, zone stresses; summed in a fixed order, so that the same scene gives the same bits on any number of threads. "
+		"With ``O.trackEnergy``, ``O.energy`` gets 'blockFriction' and 'blockFracture'.",
+		((Real, friction, 0, Attr::hidden, "Dissipated so far [J]."))
+		((Real, fracture, 0, Attr::hidden, "Set free so far [J]."))
+	);
+	// clang-format on
+
+private:
+	ModelOfScene             modelOf;
+	blocks::JointDissipation dissipation;
+	int                      frictionId = -1, fractureId = -1;
+};
+REGISTER_SERIALIZABLE(BlockForces);
+
+class BlockIntegrator : public GlobalEngine {
+public:
+	virtual ~BlockIntegrator();
+	void action() override;
+	void postLoad(BlockIntegrator&);
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(BlockIntegrator, GlobalEngine,
+		"Moves the grid points by central differences (paper, Eqs. 4-9), with damping and prescribed motion, and writes the centroids to ``state.pos``. "
+		"A run that turns unstable (a number that is none, or energy that nobody put in) is stopped with a message that names step and block; the last good state is put back and saved. "
+		"With ``O.trackEnergy``, ``O.energy`` gets 'blockKinetic', 'blockZones', 'blockJoints', 'blockDamping' and, negative, 'blockWork' (loads and driven grid points): they sum to zero with the two of BlockForces, less what was there at the start.",
+		((string, damping, "local", Attr::triggerPostLoad, "'local': a force of alpha |F| against the motion of each degree of freedom; 'adaptive': the paper's viscous damping, adjusted to the kinetic energy; 'none'."))
+		((Real, alpha, 0.3, Attr::triggerPostLoad, "Coefficient of the local damping, in [0, 1)."))
+		((Real, viscosity, 0, , "Coefficient c of the adaptive damping as it stands now [1/s]."))
+		((int, watchPeriod, 100, Attr::triggerPostLoad, "Steps between two looks at the stability; 0: never."))
+		((string, rescueFile, "unstable.yade.bz2", , "Where an unstable run saves its last good state; empty: nowhere."))
+		((Real, dissipated, 0, Attr::hidden, "By damping, up to the last time of forces [J]."))
+		((Real, pending, 0, Attr::hidden, "By damping in the half step since [J]."))
+	);
+	// clang-format on
+	DECLARE_LOGGER;
+
+private:
+	void checkStep(BlockModel&);
+	void watchStability(BlockModel&);
+
+	ModelOfScene           modelOf;
+	blocks::Damping        law;
+	blocks::StabilityWatch watch;
+	long                   checkedVersion = 0;
+	Real                   checkedDt      = 0;
+	int                    kineticId = -1, zonesId = -1, jointsId = -1, dampingId = -1, workId = -1;
+};
+REGISTER_SERIALIZABLE(BlockIntegrator);
+
+} // namespace yade

@@ -1,0 +1,51 @@
+// yade-blocks, GPL-2.0-or-later
+#pragma once
+#include "Block.hpp"
+#include <core/IGeom.hpp>
+#include <core/Interaction.hpp>
+
+namespace yade {
+
+/// Where two blocks touch: a range of contact points in the model.
+class BlockGeom : public IGeom {
+public:
+	virtual ~BlockGeom();
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(BlockGeom, IGeom,
+		"Contact points between two blocks. Each segment, an overlap of two edges, has one at either end; their areas add up to the common surface.",
+		((shared_ptr<BlockModel>, model, , Attr::readonly, "The model that holds the points."))
+		((int, pair, -1, Attr::readonly, "Index of the pair of blocks in the model.")),
+		createIndex();,
+		.add_property("points", &BlockGeom::points, "First and one-past-last contact point of the pair.")
+		.add_property("positions", &BlockGeom::positions, "Contact points, midway between the blocks [m].")
+		.add_property("normals", &BlockGeom::normals, "Unit normals at the contact points, out of the first block.")
+		.add_property("areas", &BlockGeom::areas, "Areas of the contact points [m2].")
+		.add_property("openings", &BlockGeom::openings, "Openings since bonding [m].")
+		.add_property("slips", &BlockGeom::slips, "Slips since bonding [m].")
+	);
+	// clang-format on
+	REGISTER_CLASS_INDEX(BlockGeom, IGeom);
+
+	py::tuple points() const;
+	py::list  positions() const, normals() const, areas() const, openings() const, slips() const;
+};
+REGISTER_SERIALIZABLE(BlockGeom);
+
+/// Opening and slip at every contact point of a pair.
+class Ig2_Block_Block_BlockGeom : public IGeomFunctor {
+public:
+	virtual ~Ig2_Block_Block_BlockGeom();
+	bool go(const shared_ptr<Shape>&, const shared_ptr<Shape>&, const State&, const State&, const Vector3r&, const bool&, const shared_ptr<Interaction>&)
+	        override;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC(Ig2_Block_Block_BlockGeom, IGeomFunctor,
+		"Opening and slip at the contact points of two bonded :yref:`blocks<Block>`, in a frame that turns with their edges (UDEC's point contacts; paper, section 2.2).");
+	// clang-format on
+	FUNCTOR2D(Block, Block);
+	DEFINE_FUNCTOR_ORDER_2D(Block, Block);
+};
+REGISTER_SERIALIZABLE(Ig2_Block_Block_BlockGeom);
+
+} // namespace yade

@@ -1,0 +1,164 @@
+// yade-blocks, GPL-2.0-or-later
+#include "BlockModel.hpp"
+#include "Block.hpp"
+#include <algorithm>
+#include <core/Body.hpp>
+#include <core/BodyContainer.hpp>
+#include <core/Interaction.hpp>
+#include <core/InteractionContainer.hpp>
+#include <core/Omega.hpp>
+
+namespace yade {
+
+BlockModel::~BlockModel() = default;
+
+void BlockModel::postLoad(BlockModel&)
+{
+	blocks::require(thickness > 0 && std::isfinite(thickness), "BlockModel.thickness must be positive and finite [m]", thickness);
+	const blocks::Plane plane = planeStress ? blocks::Plane::stress : blocks::Plane::strain;
+	if (assembly.blockCount() > 0 && (thickness != assembly.thickness || plane != assembly.plane))
+		throw std::invalid_argument("BlockModel.thickness and BlockModel.planeStress must be set before the first block is added");
+	assembly.thickness = thickness;
+	assembly.plane     = plane;
+	assembly.strain    = smallStrain ? blocks::Strain::small : blocks::Strain::large;
+	++stiffnessVersion;
+}
+
+BlockModel& BlockModel::of(const Scene* scene)
+{
+	for (const auto& body : *scene->bodies)
+		if (body && body->shape)
+			if (const auto* block = dynamic_cast<const Block*>(body->shape.get())) return *block->model;
+	throw std::runtime_error("no blocks in the scene: build a BlockModel and call its insert() before the first step");
+}
+
+int BlockModel::pairOf(int block1, int block2) const
+{
+	const std::array<int, 2> key { std::min(block1, block2), std::max(block1, block2) };
+	const auto               found
+	        = std::lower_bound(assembly.pairs.begin(), assembly.pairs.end(), key, [](const blocks::Pair& p, const auto& k) { return p.block < k; });
+	return found != assembly.pairs.end() && found->block == key ? int(found - assembly.pairs.begin()) : -1;
+}
+
+void BlockModel::complain(const std::string& sentence)
+{
+	const std::lock_guard<std::mutex> lock(complaintMutex);
+	if (complaint.empty() || sentence < complaint) complaint = sentence; // the same one, whichever thread comes first
+}
+
+void BlockModel::throwComplaint()
+{
+	if (complaint.empty()) return;
+	const std::string sentence = std::move(complaint);
+	complaint.clear();
+	throw std::runtime_error(sentence);
+}
+
+int BlockModel::materialIndex(const std::string& label)
+{
+	const auto known = std::find(materialLabels.begin(), materialLabels.end(), label);
+	if (known != materialLabels.end()) return int(known - materialLabels.begin());
+
+	for (const auto& material : Omega::instance().getScene()->materials)
+		if (material->label == label) {
+			const auto* mat = dynamic_cast<const BlockMat*>(material.get());
+			if (!mat) throw std::invalid_argument("material \"" + label + "\" must be a BlockMat, got " + material->getClassName());
+			const int index = assembly.addMaterial({ mat->young, mat->poisson, mat->density });
+			materialLabels.push_back(label);
+			return index;
+		}
+	throw std::invalid_argument("no material labelled \"" + label + "\" in O.materials: append a BlockMat(label=\"" + label + "\", ...) first");
+}
+
+namespace {
+	/// Whether a point is strictly inside a ring, by the number of edges to its right.
+	bool inside(const blocks::Vec2& p, const blocks::Ring& ring)
+	{
+		bool odd = false;
+		for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
+			if ((ring[i].y() > p.y()) != (ring[j].y() > p.y())
+			    && p.x() < ring[i].x() + (p.y() - ring[i].y()) / (ring[j].y() - ring[i].y()) * (ring[j].x() - ring[i].x()))
+				odd = !odd;
+		return odd;
+	}
+
+	/// Whether a lies in b, holes excepted: regions whose edges do not cross lie inside wholly or not at all.
+	bool within(const blocks::Polygon& a, const blocks::Polygon& b)
+	{
+		for (const blocks::Vec2& p : a.outer) {
+			bool in = inside(p, b.outer);
+			for (const auto& hole : b.holes)
+				in = in && !inside(p, hole);
+			if (!in) return false;
+		}
+		return true;
+	}
+}
+
+void BlockModel::claim(const blocks::Polygon& region)
+{
+	for (size_t i = 0; i < regions.size(); ++i)
+		if (within(region, regions[i]) || within(regions[i], region))
+			throw std::invalid_argument("regions must not overlap: the new one and region " + std::to_string(i) + " lie within one another (leave a hole)");
+	regions.push_back(region);
+}
+
+void BlockModel::requireOpen(const char* what) const
+{
+	if (firstBody >= 0) throw std::runtime_error(std::string(what) + " must come before BlockModel.insert(): the arrays are in use by now");
+}
+
+void BlockModel::setJoint(int pair, const blocks::JointParams& params, bool bonded)
+{
+	assembly.joints[pair] = params;
+	for (int i = 2 * assembly.pairs[pair].first; i < 2 * assembly.pairs[pair].last; ++i)
+		assembly.points[i].joint.status = bonded ? blocks::Joint::intact : blocks::Joint::unbonded;
+	++stiffnessVersion;
+}
+
+void BlockModel::insert()
+{
+	requireOpen("BlockModel.insert");
+	if (assembly.blockCount() == 0) throw std::runtime_error("BlockModel.insert: the model has no blocks");
+	Scene* scene = Omega::instance().getScene().get();
+	for (const auto& body : *scene->bodies)
+		if (body && body->shape && dynamic_cast<const Block*>(body->shape.get()))
+			throw std::runtime_error("BlockModel.insert: the scene has blocks of another model already; one model holds all blocks of a scene");
+
+	const auto self = YADE_PTR_CAST<BlockModel>(shared_from_this());
+	for (int i = 0; i < assembly.blockCount(); ++i) {
+		auto       shape    = shared_ptr<Block>(new Block);
+		auto       body     = shared_ptr<Body>(new Body);
+		const auto centroid = assembly.centroid(i);
+		shape->model        = self;
+		shape->index        = i;
+		body->shape         = shape;
+		const string& label = materialLabels[assembly.blockMaterial[i]];
+		for (const auto& material : scene->materials)
+			if (material->label == label) body->material = material;
+		body->state->pos = body->state->refPos = Vector3r(centroid.x(), centroid.y(), 0);
+		body->state->blockedDOFs               = State::DOF_ALL; // the grid points move, not the body
+		for (int n = assembly.firstNode[i]; n < assembly.firstNode[i + 1]; ++n)
+			body->state->mass += assembly.mass[n];
+		const int id = scene->bodies->insert(body);
+		if (i == 0) firstBody = id;
+		if (id != firstBody + i) throw std::runtime_error("BlockModel.insert: body ids are not consecutive; insert blocks before erasing bodies");
+	}
+	for (const blocks::Pair& pair : assembly.pairs)
+		scene->interactions->insert(shared_ptr<Interaction>(new Interaction(firstBody + pair.block[0], firstBody + pair.block[1])));
+	++stiffnessVersion;
+}
+
+blocks::MotionGroup& BlockModel::group(const std::string& name)
+{
+	string known;
+	for (blocks::MotionGroup& g : assembly.groups) {
+		if (g.name == name) return g;
+		known += (known.empty() ? "" : ", ") + g.name;
+	}
+	throw std::invalid_argument("no motion group \"" + name + "\"; there are: " + known);
+}
+
+YADE_PLUGIN((BlockModel));
+
+} // namespace yade

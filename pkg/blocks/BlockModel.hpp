@@ -1,0 +1,84 @@
+// yade-blocks, GPL-2.0-or-later
+#pragma once
+#include <blocks/AssemblyArchive.hpp>
+#include <core/Scene.hpp>
+#include <core/Shape.hpp>
+#include <lib/serialization/Serializable.hpp>
+#include <atomic>
+#include <mutex>
+#include <pkg/common/ElastMat.hpp>
+
+namespace yade {
+
+class BlockModel;
+
+/// The model's methods and arrays as Python sees them; the definitions stand in BlockModelPython.cpp.
+struct BlockModelPython : py::def_visitor<BlockModelPython> {
+	void visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::bases<Serializable>, boost::noncopyable>&) const;
+};
+
+/// Owner of the scene's one assembly: builds it, shows it to Python, is saved with it.
+class BlockModel : public Serializable {
+public:
+	/// Grows whenever something changed on which masses or the time step depend.
+	std::atomic<long> stiffnessVersion { 1 };
+	/// Time step as a fraction of the stable one, as BlockTimeStepper has set it; 0 if it has not.
+	Real safety = 0;
+
+	virtual ~BlockModel();
+	void postLoad(BlockModel&);
+
+	/// The scene's model, or an error that says how one gets there.
+	static BlockModel& of(const Scene*);
+
+	/// Index into assembly.pairs of two blocks, or -1.
+	int pairOf(int block1, int block2) const;
+
+	/// InteractionLoop cannot let an exception out of its threads: functors complain here and the next engine throws it.
+	void complain(const std::string& sentence);
+	void throwComplaint();
+
+	/// A material of O.materials, by its label; its index in the assembly.
+	int materialIndex(const std::string& label);
+
+	/// Properties of a pair's joint, and whether it is whole; several threads may do this for different pairs.
+	void setJoint(int pair, const blocks::JointParams&, bool bonded);
+
+	/// One Body per block and one Interaction per pair, into the present scene.
+	void insert();
+
+	/// Takes note of a region, and refuses one that lies inside another or holds another; crossing edges show in bond().
+	void claim(const blocks::Polygon&);
+
+	/// Refuses changes of what was already handed over to the scene.
+	void requireOpen(const char* what) const;
+
+	blocks::MotionGroup& group(const std::string& name);
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(BlockModel, Serializable,
+		"All blocks of a scene in flat arrays: grid points, zones, boundary edges, joints. Build it once (materials, :yref:`addVoronoi<BlockModel.addVoronoi>`, "
+		":yref:`addRegion<BlockModel.addRegion>`, :yref:`bond<BlockModel.bond>`, boundary conditions, :yref:`insert<BlockModel.insert>`), then let the engines work on it. "
+		"SI units, tension positive. Arrays are numpy views of the model's own memory: reading costs no copy, writing changes the model.",
+		((Real, thickness, 1, Attr::triggerPostLoad, "Out-of-plane thickness [m]; to be set before the first block."))
+		((bool, planeStress, false, Attr::triggerPostLoad, "Plane stress instead of plane strain."))
+		((bool, smallStrain, false, Attr::triggerPostLoad, "Small-strain zones: cheaper, only for scenes in which no block turns by more than about 1e-3."))
+		((vector<string>, materialLabels, , Attr::readonly, "Labels of the materials, in the order of :yref:`blockMaterial<BlockModel.blockMaterial>`."))
+		((int, firstBody, -1, Attr::readonly, "Body id of block 0; block i is body firstBody + i."))
+		((blocks::BlockAssembly, assembly, , Attr::hidden, "The arrays."))
+		,
+		/*ctor*/,
+		/*py*/
+		.def(BlockModelPython())
+	);
+	// clang-format on
+
+private:
+	std::vector<blocks::Polygon> regions;
+
+	std::mutex  complaintMutex;
+	std::string complaint;
+};
+REGISTER_SERIALIZABLE(BlockModel);
+
+} // namespace yade

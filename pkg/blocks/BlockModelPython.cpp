@@ -1,0 +1,388 @@
+// yade-blocks, GPL-2.0-or-later
+#include "BlockModel.hpp"
+#include "JointPhys.hpp"
+#include <blocks/kernel/ContactDetection.hpp>
+#include <blocks/kernel/ContactKinematics.hpp>
+#include <blocks/kernel/Energy.hpp>
+#include <blocks/kernel/NodalForces.hpp>
+#include <blocks/kernel/Tessellation.hpp>
+#include <blocks/kernel/Zoning.hpp>
+#include <boost/python/numpy.hpp>
+
+/// What Python sees of a BlockModel: its building, its arrays, its boundary conditions.
+namespace yade {
+
+namespace np = boost::python::numpy;
+using blocks::BlockAssembly;
+using blocks::MotionGroup;
+using blocks::Vec2;
+
+namespace {
+
+	// ---- from Python
+
+	vector<long> integers(const py::object& sequence)
+	{
+		const py::object list = py::import("numpy").attr("asarray")(sequence).attr("ravel")().attr("tolist")();
+		vector<long>     out;
+		for (long i = 0; i < py::len(list); ++i)
+			out.push_back(py::extract<long>(list[i]));
+		return out;
+	}
+
+	blocks::Ring ring(const py::object& points)
+	{
+		const py::object list = py::import("numpy").attr("asarray")(points, "float64").attr("reshape")(-1, 2).attr("tolist")();
+		blocks::Ring     out;
+		for (long i = 0; i < py::len(list); ++i)
+			out.push_back({ py::extract<Real>(list[i][0]), py::extract<Real>(list[i][1]) });
+		return out;
+	}
+
+	blocks::Polygon polygon(const py::object& outer, const py::object& holes)
+	{
+		blocks::Polygon out { ring(outer), {} };
+		for (long i = 0; i < py::len(holes); ++i)
+			out.holes.push_back(ring(holes[i]));
+		return out;
+	}
+
+	blocks::Zones zonesOf(const blocks::Ring& outline, const string& zoning)
+	{
+		if (zoning == "fan") return blocks::fanZones(outline);
+		if (zoning == "corners") return blocks::cornerZones(outline);
+		throw std::invalid_argument("zoning of cells must be 'fan' or 'corners', got '" + zoning + "'");
+	}
+
+	// ---- building
+
+	py::dict addVoronoi(
+	        BlockModel& model, const py::object& outer, const string& material, Real size, const string& sizeMeaning, int lloyd, long seed,
+	        const py::object& holes, const py::object& seeds, Real mergeFraction, const string& zoning)
+	{
+		model.requireOpen("BlockModel.addVoronoi");
+		if (sizeMeaning != "edge" && sizeMeaning != "sqrtArea") throw std::invalid_argument("sizeMeaning must be 'edge' or 'sqrtArea', got '" + sizeMeaning + "'");
+		blocks::require(seed >= 0, "seed must not be negative", Real(seed));
+		const int material_ = model.materialIndex(material);
+
+		blocks::TessellationOptions options;
+		options.size    = size;
+		options.meaning = sizeMeaning == "edge" ? blocks::SizeMeaning::edge : blocks::SizeMeaning::sqrtArea;
+		options.lloyd   = lloyd;
+		options.seed    = seed;
+		options.seeds   = ring(seeds);
+		if (mergeFraction >= 0) options.mergeFraction = mergeFraction;
+		const blocks::Polygon region = polygon(outer, holes);
+		const blocks::Cells   cells  = blocks::tessellate(region, options);
+		model.claim(region);
+
+		const int first = model.assembly.blockCount();
+		for (size_t i = 0; i < cells.cells.size(); ++i) {
+			const blocks::Zones zones = zonesOf(blocks::ringOf(cells, i), zoning);
+			model.assembly.addBlock(zones.points, zones.rings, zones.triangles, material_);
+		}
+		py::dict out;
+		out["blocks"]       = py::make_tuple(first, model.assembly.blockCount());
+		out["meanEdge"]     = cells.meanEdge;
+		out["meanSqrtArea"] = cells.meanSqrtArea;
+		return out;
+	}
+
+	int addRegion(BlockModel& model, const py::object& outer, const string& material, Real zoneSize, const py::object& holes, bool conforming, const string& zoning)
+	{
+		model.requireOpen("BlockModel.addRegion");
+		const int       material_ = model.materialIndex(material);
+		blocks::Polygon region    = polygon(outer, holes);
+		blocks::requireSimple(region, "region");
+		model.claim(region);
+		BlockAssembly&  a = model.assembly;
+		blocks::Outline outline = blocks::Outline::split;
+		if (conforming) { // the neighbours' boundary points become this block's own
+			std::vector<Vec2> points;
+			for (const auto& edge : a.edgeNodes)
+				points.push_back(a.position[edge[0]]);
+			const size_t corners   = region.outer.size();
+			const Real   tolerance = 1e-6 * std::sqrt(std::abs(blocks::signedArea(region.outer)));
+			region.outer           = blocks::withPointsOnEdges(region.outer, points, tolerance);
+			if (region.outer.size() > corners) outline = blocks::Outline::kept;
+		}
+		blocks::Zones zones;
+		if (zoning == "regular") zones = blocks::regularZones(region.outer, zoneSize);
+		else if (zoning == "delaunay") zones = blocks::delaunayZones(region, zoneSize, outline);
+		else zones = zonesOf(region.outer, zoning);
+		return a.addBlock(zones.points, zones.rings, zones.triangles, material_);
+	}
+
+	int bond(BlockModel& model, Real tolerance)
+	{
+		model.requireOpen("BlockModel.bond");
+		model.assembly.bond(blocks::detectSegments(model.assembly, tolerance));
+		return int(model.assembly.pairs.size());
+	}
+
+	// ---- boundary conditions
+
+	MotionGroup groupOf(const string& name, const py::object& nodes, const string& axes, Real rampTime, Real startTime)
+	{
+		MotionGroup g;
+		g.name      = name;
+		g.rampTime  = rampTime;
+		g.startTime = startTime;
+		for (char axis : axes)
+			if (axis != 'x' && axis != 'y') throw std::invalid_argument("motion group \"" + name + "\": axes must be 'x', 'y' or 'xy', got '" + axes + "'");
+		for (long node : integers(nodes))
+			for (char axis : axes)
+				g.dofs.push_back(int(2 * node + (axis - 'x')));
+		return g;
+	}
+
+	void add(BlockModel& model, MotionGroup g)
+	{
+		for (const MotionGroup& other : model.assembly.groups)
+			if (other.name == g.name) throw std::invalid_argument("there is a motion group \"" + g.name + "\" already");
+		model.assembly.addGroup(std::move(g));
+		++model.stiffnessVersion;
+	}
+
+	void drive(BlockModel& model, const string& name, const py::object& nodes, const string& axes, Real velocity, Real rampTime, Real startTime)
+	{
+		MotionGroup g = groupOf(name, nodes, axes, rampTime, startTime);
+		g.target      = velocity;
+		add(model, g);
+	}
+
+	void push(BlockModel& model, const string& name, const py::object& nodes, const string& axis, Real force, Real rampTime, Real startTime)
+	{
+		if (axis.size() != 1) throw std::invalid_argument("motion group \"" + name + "\": a force acts along one axis, 'x' or 'y', got '" + axis + "'");
+		MotionGroup g = groupOf(name, nodes, axis, rampTime, startTime);
+		g.drive       = MotionGroup::Drive::force;
+		g.target      = force;
+		add(model, g);
+	}
+
+	void release(BlockModel& model, const string& name)
+	{
+		MotionGroup& g = model.group(name);
+		model.assembly.groups.erase(model.assembly.groups.begin() + (&g - model.assembly.groups.data()));
+		model.assembly.updateMobility();
+		++model.stiffnessVersion;
+	}
+
+	void setTarget(BlockModel& model, const string& name, Real target)
+	{
+		blocks::require(std::isfinite(target), "motion group \"" + name + "\": target must be finite", target);
+		model.group(name).target = target;
+	}
+	void setThrottle(BlockModel& model, const string& name, Real throttle)
+	{
+		blocks::require(throttle >= 0 && throttle <= 1, "motion group \"" + name + "\": throttle must lie in [0, 1]", throttle);
+		model.group(name).throttle = throttle;
+	}
+	Real force(BlockModel& model, const string& name) { return model.group(name).force; }
+	Real velocity(BlockModel& model, const string& name) { return model.group(name).velocity; }
+	Real travelled(BlockModel& model, const string& name) { return model.group(name).travelled; }
+	Real work(BlockModel& model, const string& name) { return model.group(name).work; }
+	py::list groupNames(const BlockModel& model)
+	{
+		py::list names;
+		for (const MotionGroup& g : model.assembly.groups)
+			names.append(g.name);
+		return names;
+	}
+
+	void gravity(BlockModel& model, const Vector2r& g) { blocks::addGravity(model.assembly, g); }
+
+	void traction(BlockModel& model, const py::object& edges, const Vector2r& stress)
+	{
+		const auto list = integers(edges);
+		if (list.empty()) throw std::invalid_argument("BlockModel.traction: no edges were chosen");
+		for (long edge : list)
+			blocks::addTraction(model.assembly, int(edge), stress);
+	}
+
+	// ---- arrays
+
+	/// `columns` numbers of each item, from `offset` bytes within it: a numpy view that keeps the model alive.
+	template <class Number, class Item> py::object view(const py::object& self, std::vector<Item>& items, int columns, size_t offset = 0)
+	{
+		static const bool ready = (np::initialize(), true);
+		(void)ready;
+		static Number nothing {};
+		char*         data  = items.empty() ? reinterpret_cast<char*>(&nothing) : reinterpret_cast<char*>(items.data()) + offset;
+		py::tuple     shape = columns == 1 ? py::make_tuple(items.size()) : py::make_tuple(items.size(), columns);
+		py::tuple     steps = columns == 1 ? py::make_tuple(sizeof(Item)) : py::make_tuple(sizeof(Item), sizeof(Number));
+		return np::from_data(data, np::dtype::get_builtin<Number>(), shape, steps, self);
+	}
+
+	BlockAssembly& arrays(const py::object& self) { return py::extract<BlockModel&>(self)().assembly; }
+
+	py::object zoneStress(const py::object& self)
+	{
+		BlockAssembly&     a = arrays(self);
+		static const bool  ready = (np::initialize(), true);
+		(void)ready;
+		np::ndarray out  = np::empty(py::make_tuple(a.zoneCount(), 3), np::dtype::get_builtin<Real>());
+		Real*       data = reinterpret_cast<Real*>(out.get_data());
+		for (int block = 0; block < a.blockCount(); ++block)
+			for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z) {
+				const blocks::ZoneStress s = blocks::cauchyStress(a, block, z);
+				data[3 * z] = s.sxx, data[3 * z + 1] = s.syy, data[3 * z + 2] = s.sxy;
+			}
+		return out;
+	}
+
+	py::object contactPositions(const py::object& self)
+	{
+		BlockAssembly&     a = arrays(self);
+		static const bool  ready = (np::initialize(), true);
+		(void)ready;
+		np::ndarray out  = np::empty(py::make_tuple(a.points.size(), 2), np::dtype::get_builtin<Real>());
+		Real*       data = reinterpret_cast<Real*>(out.get_data());
+		for (size_t i = 0; i < a.points.size(); ++i) {
+			const Vec2 x = blocks::contactPosition(a, int(i));
+			data[2 * i] = x.x(), data[2 * i + 1] = x.y();
+		}
+		return out;
+	}
+
+#define VIEW(name, Number, member, columns, doc) \
+	.add_property(#name, py::make_function(+[](py::object self) -> py::object { return view<Number>(self, arrays(self).member, columns); }), doc)
+#define VIEW_FIELD(name, Number, member, Item, field, columns, doc) \
+	.add_property(#name, py::make_function(+[](py::object self) -> py::object { return view<Number>(self, arrays(self).member, columns, offsetof(blocks::Item, field)); }), doc)
+
+	int  blockCount(const BlockModel& m) { return m.assembly.blockCount(); }
+	int  nodeCount(const BlockModel& m) { return m.assembly.nodeCount(); }
+	int  zoneCount(const BlockModel& m) { return m.assembly.zoneCount(); }
+	int  contactCount(const BlockModel& m) { return int(m.assembly.points.size()); }
+	Real unbalancedRatio(const BlockModel& m, Real floor) { return blocks::unbalancedRatio(m.assembly, floor); }
+	Real kineticEnergy(const BlockModel& m) { return blocks::kineticEnergy(m.assembly); }
+
+} // namespace
+
+void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::bases<Serializable>, boost::noncopyable>& c) const
+{
+	using py::arg;
+	c.def("addVoronoi", &addVoronoi,
+	      (arg("outline"), arg("material"), arg("size"), arg("sizeMeaning") = "sqrtArea", arg("lloyd") = 2, arg("seed") = 1, arg("holes") = py::tuple(),
+	       arg("seeds") = py::tuple(), arg("mergeFraction") = -1., arg("zoning") = "fan"),
+	      "Fills a simple polygon, with holes, with Voronoi blocks of a material (a label in O.materials). outline: counter-clockwise points, shape (n, 2) [m]; "
+	      "size: mean edge or mean sqrt(area) of the cells, as sizeMeaning ('edge', 'sqrtArea') says [m]; lloyd: iterations towards regular cells; seed: of the random points; "
+	      "seeds: explicit points instead; mergeFraction: edges shorter than this fraction of the size are merged (negative: the default); zoning: 'fan' (a grid point in the middle) or 'corners'. "
+	      "Returns {'blocks': (first, last+1), 'meanEdge': [m], 'meanSqrtArea': [m]}. Errors: ValueError for polygons that cross themselves or another region, and impossible sizes.")
+	        .def("addRegion", &addRegion,
+	             (arg("outline"), arg("material"), arg("zoneSize"), arg("holes") = py::tuple(), arg("conforming") = true, arg("zoning") = "delaunay"),
+	             "Adds one block: a simple polygon meshed with zones of the given size [m]. zoning: 'delaunay', 'regular' (rectangles), 'fan' or 'corners'. "
+	             "conforming: boundary points of the blocks that are there already become its own where they lie on its outline. Returns the block's index.")
+	        .def("bond", &bond, (arg("tolerance") = 1e-6),
+	             "Finds the joints: overlaps of facing edges, apart by no more than tolerance times their length. To be called once, after all blocks. Returns the number of pairs. "
+	             "Errors: ValueError where blocks overlap.")
+	        .def("insert", &BlockModel::insert, "Hands the model over to the scene: one Body a block into O.bodies, one Interaction a pair into O.interactions.")
+	        .def("drive", &drive, (arg("name"), arg("nodes"), arg("axes"), arg("velocity") = 0., arg("rampTime") = 0., arg("startTime") = 0.),
+	             "Prescribes the velocity [m/s] of grid points along 'x', 'y' or 'xy' (0: held), reached smoothly within rampTime [s] after startTime [s].")
+	        .def("push", &push, (arg("name"), arg("nodes"), arg("axis"), arg("force"), arg("rampTime") = 0., arg("startTime") = 0.),
+	             "Moves grid points along one axis as one, as under a platen that stays parallel, by a total force [N].")
+	        .def("release", &release, (arg("name")), "Sets the grid points of a group free.")
+	        .def("setTarget", &setTarget, (arg("name"), arg("target")), "New velocity [m/s] or force [N] of a group.")
+	        .def("setThrottle", &setThrottle, (arg("name"), arg("throttle")), "Factor in [0, 1] on the velocity of a group, for servos.")
+	        .def("groupForce", &force, (arg("name")), "Force that a group puts on the blocks along its axes, in the last step [N].")
+	        .def("groupVelocity", &velocity, (arg("name")), "Present velocity of a group [m/s].")
+	        .def("groupTravelled", &travelled, (arg("name")), "Displacement of a group so far [m].")
+	        .def("groupWork", &work, (arg("name")), "Work that a group has done on the blocks [J].")
+	        .add_property("groups", &groupNames, "Names of the motion groups.")
+	        .def("gravity", &gravity, (arg("g")), "Adds gravity, a vector [m/s2], on the true masses.")
+	        .def("traction", &traction, (arg("edges"), arg("stress")), "Adds a traction vector [Pa] on boundary edges (indices into edgeNodes), as dead load.")
+	        .def("unbalancedRatio", &unbalancedRatio, (arg("floor") = 0.),
+	             "Sum of unbalanced |force| over free degrees of freedom by twice the sum of contact |forces|, the latter at least floor [N]. YADE's utils.unbalancedForce() knows nothing of grid points.")
+	        .def("kineticEnergy", &kineticEnergy, "Kinetic energy, with the scaled masses if masses are scaled [J].")
+	        .def("zoneStress", py::make_function(&zoneStress), "Cauchy stress of every zone: sxx, syy, sxy, tension positive; shape (zones, 3) [Pa]. A copy.")
+	        .def("contactPositions", py::make_function(&contactPositions), "Positions of the contact points, shape (contact points, 2) [m]. A copy.")
+	        .add_property("blockCount", &blockCount, "Number of blocks.")
+	        .add_property("nodeCount", &nodeCount, "Number of grid points.")
+	        .add_property("zoneCount", &zoneCount, "Number of zones.")
+	        .add_property("contactCount", &contactCount, "Number of contact points.")
+	                VIEW(position, Real, position, 2, "Grid points' positions, shape (grid points, 2) [m].")
+	                VIEW(reference, Real, reference, 2, "Grid points' positions without stress, shape (grid points, 2) [m].")
+	                VIEW(velocity, Real, velocity, 2, "Grid points' velocities half a step ago, shape (grid points, 2) [m/s].")
+	                VIEW(force, Real, force, 2, "Grid points' unbalanced forces, shape (grid points, 2) [N].")
+	                VIEW(mass, Real, mass, 1, "Grid points' true masses [kg].")
+	                VIEW(inertia, Real, inertia, 1, "Grid points' masses as they resist motion, scaled if BlockTimeStepper scales them [kg].")
+	                VIEW(zoneNodes, int, zoneNodes, 3, "Grid points of every zone, counter-clockwise, shape (zones, 3).")
+	                VIEW(zoneVolume, Real, zoneVolume, 1, "Volumes of the zones [m3].")
+	                VIEW(firstNode, int, firstNode, 1, "First grid point of every block, and their number at the end.")
+	                VIEW(firstZone, int, firstZone, 1, "First zone of every block, and their number at the end.")
+	                VIEW(firstEdge, int, firstEdge, 1, "First boundary edge of every block, and their number at the end.")
+	                VIEW(blockMaterial, int, blockMaterial, 1, "Material of every block, an index into materialLabels.")
+	                VIEW(edgeNodes, int, edgeNodes, 2, "Grid points of the boundary edges, material on the left, shape (edges, 2).")
+	                VIEW_FIELD(segmentNodes, int, segments, Segment, node, 4, "Edge a1, b1 of the first and a2, b2 of the second block of every segment, shape (segments, 4).")
+	                VIEW_FIELD(segmentBlocks, int, segments, Segment, block, 2, "The two blocks of every segment, shape (segments, 2).")
+	                VIEW_FIELD(segmentParameters, Real, segments, Segment, s1, 4, "Where the two contact points are along the first edge, then along the second (0 at a, 1 at b), shape (segments, 4).")
+	                VIEW_FIELD(segmentArea, Real, segments, Segment, area, 1, "Area of each of the two contact points of every segment [m2].")
+	                VIEW_FIELD(normal, Real, frames, SegmentFrame, nx, 2, "Unit normals of the segments, out of the first block, shape (segments, 2).")
+	                VIEW_FIELD(pointOpening, Real, points, ContactPoint, opening, 1, "Openings of the contact points, two a segment [m].")
+	                VIEW_FIELD(pointSlip, Real, points, ContactPoint, slip, 1, "Slips of the contact points [m].")
+	                VIEW_FIELD(pointSigma, Real, points, ContactPoint, sigma, 1, "Normal stresses of the contact points, tension positive [Pa].")
+	                VIEW_FIELD(pointTau, Real, points, ContactPoint, tau, 1, "Shear stresses of the contact points [Pa].")
+	                .add_property("pointStatus", py::make_function(+[](py::object self) -> py::object {
+		                return view<std::uint8_t>(self, arrays(self).points, 1, offsetof(blocks::ContactPoint, joint) + offsetof(blocks::JointState, status));
+	                }), "0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded.");
+}
+
+namespace {
+	/// Reads or sets one property of a pair's joint; a change is checked and reaches masses and time step.
+	template <Real blocks::JointParams::*member> Real get(const JointPhys& phys) { return phys.joint().*member; }
+	template <Real blocks::JointParams::*member> void set(JointPhys& phys, Real value)
+	{
+		blocks::JointParams changed = phys.joint();
+		changed.*member             = value;
+		blocks::validate(changed);
+		phys.joint() = changed;
+		++phys.model->stiffnessVersion;
+	}
+	template <Real blocks::JointParams::*member> Real getAngle(const JointPhys& phys) { return std::atan(phys.joint().*member); }
+	template <Real blocks::JointParams::*member> void setAngle(JointPhys& phys, Real angle)
+	{
+		blocks::require(angle >= 0 && angle < M_PI / 2, "an angle of JointPhys must lie in [0, pi/2) rad", angle);
+		set<member>(phys, std::tan(angle));
+	}
+
+	template <class Value> py::list ofPoints(const JointPhys& phys, const Value& value)
+	{
+		py::list    list;
+		const auto& a = phys.model->assembly;
+		for (int i = 2 * a.pairs[phys.pair].first; i < 2 * a.pairs[phys.pair].last; ++i)
+			list.append(value(a.points[i]));
+		return list;
+	}
+	py::list sigma(const JointPhys& phys)
+	{
+		return ofPoints(phys, [](const blocks::ContactPoint& p) { return p.sigma; });
+	}
+	py::list tau(const JointPhys& phys)
+	{
+		return ofPoints(phys, [](const blocks::ContactPoint& p) { return p.tau; });
+	}
+	py::list status(const JointPhys& phys)
+	{
+		return ofPoints(phys, [](const blocks::ContactPoint& p) { return int(p.joint.status); });
+	}
+} // namespace
+
+void JointPhysPython::visit(py::class_<JointPhys, shared_ptr<JointPhys>, py::bases<IPhys>, boost::noncopyable>& c) const
+{
+	using P = blocks::JointParams;
+	c.add_property("kn", &get<&P::kn>, &set<&P::kn>, "Normal stiffness [Pa/m].")
+	        .add_property("ks", &get<&P::ks>, &set<&P::ks>, "Shear stiffness [Pa/m].")
+	        .add_property("cohesion", &get<&P::cohesion>, &set<&P::cohesion>, "Cohesion [Pa].")
+	        .add_property("tension", &get<&P::tension>, &set<&P::tension>, "Tensile strength [Pa].")
+	        .add_property("cohesionResidual", &get<&P::cohesionResidual>, &set<&P::cohesionResidual>, "Cohesion after failure [Pa].")
+	        .add_property("tensionResidual", &get<&P::tensionResidual>, &set<&P::tensionResidual>, "Tensile strength after failure [Pa].")
+	        .add_property("dilationLimitSlip", &get<&P::dilationLimitSlip>, &set<&P::dilationLimitSlip>, "Slip beyond which the joint dilates no further [m].")
+	        .add_property("frictionAngle", &getAngle<&P::tanPhi>, &setAngle<&P::tanPhi>, "Friction angle [rad].")
+	        .add_property("frictionAngleResidual", &getAngle<&P::tanPhiResidual>, &setAngle<&P::tanPhiResidual>, "Friction angle after failure [rad].")
+	        .add_property("dilationAngle", &getAngle<&P::tanDilation>, &setAngle<&P::tanDilation>, "Dilation angle [rad].")
+	        .add_property("sigma", &sigma, "Normal stresses at the pair's contact points, tension positive [Pa].")
+	        .add_property("tau", &tau, "Shear stresses at the pair's contact points [Pa].")
+	        .add_property("status", &status, "Of the pair's contact points: 0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded.");
+}
+
+} // namespace yade

@@ -1,0 +1,38 @@
+// yade-blocks, GPL-2.0-or-later
+#pragma once
+#include "BlockAssembly.hpp"
+
+/// Where the energy is and where it went [J].
+namespace blocks {
+
+Real zoneEnergy(const BlockAssembly&);    ///< elastic energy of the zones
+Real jointEnergy(const BlockAssembly&);   ///< elastic energy of the joints' springs
+Real kineticEnergy(const BlockAssembly&); ///< from the velocities at the last half step and the inertia
+Real loadWork(const BlockAssembly&);      ///< of the dead loads since the reference state
+Real groupWork(const BlockAssembly&);     ///< of driven and pushed degrees of freedom
+
+/// Dissipation at the contact points, by the trapezoidal rule from step to step. Exists only where somebody keeps accounts.
+class JointDissipation {
+public:
+	/// Takes the present state as the start.
+	void start(const BlockAssembly&);
+	/// After a law: books what the joints took in and do not hold. To be called every step.
+	void book(const BlockAssembly&);
+
+	bool running() const { return !before.empty(); }
+
+	Real friction = 0; ///< of broken joints; dilation's work against the pressure is taken off [J]
+	Real fracture = 0; ///< set free in the step in which a contact point broke [J]
+
+private:
+	struct Before {
+		Real  opening, slip, sigma, tau;
+		Joint status;
+	};
+	std::vector<Before> before;
+};
+
+/// Sum of |F| over free degrees of freedom by twice the sum of |F| over contact points, the latter at least `floor` [N].
+Real unbalancedRatio(const BlockAssembly&, Real floor = 0);
+
+} // namespace blocks

@@ -1,0 +1,54 @@
+// yade-blocks, GPL-2.0-or-later
+#pragma once
+
+/// Conventions of the whole kernel, stated once:
+///  - SI units; two dimensions, the x-y plane; the out-of-plane thickness belongs to the assembly [m];
+///  - polygons are counter-clockwise, their holes clockwise; the outward normal of an edge a->b is (dy, -dx)/L;
+///  - tension is positive, in zones and in joints; an opening joint has a positive opening;
+///  - things refer to each other by index, never by pointer.
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace blocks {
+
+using Real = double;
+using Vec2 = Eigen::Matrix<Real, 2, 1>;
+using Ring = std::vector<Vec2>; ///< a closed polygonal line, the last vertex joined to the first
+
+/// A simple polygon with holes [m].
+struct Polygon {
+	Ring              outer; ///< counter-clockwise
+	std::vector<Ring> holes; ///< clockwise each
+};
+
+inline Real cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+inline Real signedArea(const Ring& ring)
+{
+	Real twice = 0;
+	for (size_t i = 0, n = ring.size(); i < n; ++i)
+		twice += cross(ring[i] - ring[0], ring[(i + 1) % n] - ring[0]);
+	return twice / 2;
+}
+
+/// A number as an error message should show it: all 17 digits, no zeros that were not meant.
+inline std::string shown(Real value)
+{
+	char text[40];
+	std::snprintf(text, sizeof text, "%.17g", value);
+	return text;
+}
+
+/// The one way in which the kernel refuses input: what, the rule, the value.
+inline void require(bool rule, const std::string& sentence, Real value)
+{
+	if (!rule) throw std::invalid_argument(sentence + ", got " + shown(value));
+}
+
+} // namespace blocks

@@ -1,0 +1,10 @@
+#pragma once
+
+namespace boost {
+namespace python {
+}
+}
+
+namespace yade {
+namespace py = ::boost::python;
+}

@@ -1,0 +1,2 @@
+"""Deformable blocks with joints that break, for YADE."""
+from . import _plugin

@@ -1,0 +1,97 @@
+"""Loads libyadeblocks.so into YADE and puts its classes where YADE's own classes are.
+
+Nothing to do if YADE has loaded the plugin itself, because it is installed below YADE's library folder.
+Otherwise the plugin is the one built in this checkout (build/libyadeblocks.so), or the file named by the
+environment variable YADEBLOCKS_PLUGIN.
+"""
+import ctypes
+import filecmp
+import glob
+import os
+import re
+import sys
+
+libraryName = 'libyadeblocks.so'
+
+
+def importYade():
+	"""YADE as a Python module, also where it was not started by the program `yade`."""
+	try:
+		import yade
+	except ModuleNotFoundError as notFound:
+		if notFound.name != 'yade': raise
+		prefix = os.environ.get('YADE_PREFIX', '/usr')
+		folders = glob.glob(prefix + '/lib/*/yade-double/py')
+		if not folders: raise ImportError('yadeblocks needs YADE: there is no %s/lib/*/yade-double/py' % prefix)
+		os.environ.setdefault('OMP_NUM_THREADS', '1')  # as the program `yade` does
+		sys.path.append(folders[0])
+		import yade
+	return yade
+
+
+def loadedLibrary(name):
+	"""The library of that name if it is in this process, else None."""
+	try:
+		return ctypes.PyDLL(name, os.RTLD_NOLOAD | os.RTLD_GLOBAL | os.RTLD_NOW)
+	except OSError:
+		return None
+
+
+def pathOf(library):
+	"""Where a loaded library came from."""
+	name = os.path.basename(library._name)
+	with open('/proc/self/maps') as maps:
+		paths = {line.split(maxsplit=5)[5].strip() for line in maps if line.rstrip().endswith('/' + name)}
+	return paths.pop() if paths else name
+
+
+def checkVersion(path, yade):
+	"""A plugin built for another YADE would crash, so look into the file before loading it."""
+	with open(path, 'rb') as file:
+		found = re.search(rb'plugin built for YADE ([^\0]+)\0', file.read())
+	if not found: raise ImportError('%s is no plugin for YADE' % path)
+	builtFor = found.group(1).decode()
+	if builtFor != yade.config.version:
+		raise ImportError('%s was built for YADE %s, but this is YADE %s' % (path, builtFor, yade.config.version))
+
+
+def builtPlugin():
+	"""The plugin that this checkout or YADEBLOCKS_PLUGIN provides, or None."""
+	if 'YADEBLOCKS_PLUGIN' in os.environ: return os.environ['YADEBLOCKS_PLUGIN']
+	checkout = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+	path = os.path.join(checkout, 'build', libraryName)
+	return path if os.path.exists(path) else None
+
+
+def load(path, yade):
+	"""Loads a plugin into a running YADE and registers its classes."""
+	checkVersion(path, yade)
+	library = ctypes.PyDLL(path, os.RTLD_GLOBAL | os.RTLD_NOW)
+	library.yadeRegisterNewClasses()
+	return library
+
+
+def publish(yade):
+	"""Puts classes that YADE has come to know since its start into the namespaces that YADE fills at its start."""
+	known = yade.system.childClasses('Serializable')
+	classes = {name: getattr(yade.wrapper, name) for name in sorted(known - yade.system._allSerializables)}
+	yade.system._allSerializables |= known
+	vars(yade).update(classes)
+	yade.__all__ += classes
+	session = vars(sys.modules['__main__'])
+	if session.get('Shape') is yade.wrapper.Shape: session.update(classes)  # it has done `from yade import *`
+	return classes
+
+
+yade = importYade()
+import yade.system, yade.wrapper, yade.config
+
+library = loadedLibrary(libraryName)
+if library is None:
+	path = builtPlugin()
+	if path is None: raise ImportError('%s is not built: run scripts/setup.sh, or install the package yade-blocks' % libraryName)
+	if not os.path.exists(path): raise ImportError('there is no %s (from YADEBLOCKS_PLUGIN)' % path)
+	library = load(path, yade)
+elif builtPlugin() and not filecmp.cmp(builtPlugin(), pathOf(library), shallow=False):
+	print('yadeblocks: using %s, which YADE has loaded already, not %s' % (pathOf(library), builtPlugin()), file=sys.stderr)
+publish(yade)

@@ -1,0 +1,240 @@
+# yade-blocks, GPL-2.0-or-later
+"""What a scenario found: result.json, curve.csv and the table on the terminal.
+
+	results = Results(p)
+	for seed in p.seedList:
+		with results.run(seed) as run:           # CPU and wall-clock time
+			model = build(seed)
+			with run.stepping():                 # the part that us_per_step speaks of
+				O.run(p.steps, True)
+			run.add("peak_tensile_stress", "MPa", stress.max() / 1e6, expected=0.35, source="Van der Pluijm 1992, Fig. 6")
+			run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6)
+			run.model(model, steps=O.iter)       # cost and cracks
+			run.quality(unbalanced_ratio_max=ratio)
+	results.write()
+"""
+import json
+import math
+import numbers
+import resource
+import time
+from collections import Counter
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Optional
+
+import numpy as np
+
+from .export import pairName
+
+#: Contact points by what has become of them: values of `model.pointStatus`.
+intact, brokenInTension, brokenInShear, neverBonded = range(4)
+
+modes = {"tension": brokenInTension, "shear": brokenInShear}
+
+
+def crackCounts(model):
+	"""Broken contact points by joint type and mode: {"unit-mortar": {"tension": 12, "shear": 3}, ...}, in alphabetical order.
+	Every joint type that was bonded is there, also with zeros."""
+	pairs = np.array([pairName(model, *blocks) for blocks in model.segmentBlocks], dtype=object).repeat(2)
+	status = np.asarray(model.pointStatus)
+	bonded = sorted(set(pairs[status != neverBonded]))
+	counts = Counter(zip(pairs, status.tolist()))
+	return {pair: {mode: counts[pair, value] for mode, value in modes.items()} for pair in bonded}
+
+
+@dataclass
+class Quantity:
+	"""A measured number, with what it should be. Several seeds: the mean and the sample standard deviation, `scatter`."""
+	name: str
+	unit: str
+	measured: float
+	expected: Optional[float] = None
+	source: Optional[str] = None
+	scatter: Optional[float] = None
+
+	@property
+	def error(self):
+		"""(measured - expected) / expected, None without an expected value."""
+		return (self.measured - self.expected) / self.expected if self.expected else None
+
+	def asDict(self):
+		entry = {
+		        "name": self.name, "unit": self.unit, "measured": self.measured,
+		        "expected": self.expected, "source": self.source, "error": self.error
+		}
+		return entry if self.scatter is None else {**entry, "scatter": self.scatter}
+
+
+class Run:
+	"""What one tessellation gave; made by `Results.run`."""
+
+	def __init__(self, seed, threads=1):
+		self.seed = seed
+		self.quantities = {}
+		self.qualities = {}
+		self.table = None
+		self.costs = {"threads": threads}
+		self.steppingTime = None # CPU [s]
+
+	def add(self, name, unit, measured, expected=None, source=None):
+		"""A measured number, and what it should be according to `source`, in the same unit."""
+		if name in self.quantities:
+			raise ValueError(f"quantity {name} must be added once a run, got {measured} after {self.quantities[name].measured}")
+		self.quantities[name] = Quantity(name, unit, float(measured), expected, source)
+
+	def curve(self, **columns):
+		"""The run's history: columns of equal length, units in their names (displacement_mm, stress_MPa)."""
+		import pandas
+		self.table = pandas.DataFrame(columns)
+		self.table.insert(0, "seed", self.seed)
+
+	def quality(self, unbalanced_ratio_max=None, half_rate_change=None, energy_error=None):
+		"""How far the run may be trusted, as fractions: the largest unbalanced ratio; the change of the main quantity at half
+		the loading rate; the energy error over the external work. None: not determined."""
+		given = dict(unbalanced_ratio_max=unbalanced_ratio_max, half_rate_change=half_rate_change, energy_error=energy_error)
+		self.qualities.update((name, value) for name, value in given.items() if value is not None)
+
+	@contextmanager
+	def stepping(self):
+		"""Around the time steps proper (may be entered several times): their CPU time gives us_per_step."""
+		start = time.process_time()
+		yield
+		self.steppingTime = (self.steppingTime or 0) + time.process_time() - start
+
+	def model(self, model, steps, **more):
+		"""Sizes and cracks of the model as it is now, after `steps` time steps. `more` joins the cost (ns_per_zone=...)."""
+		self.costs.update(
+		        steps=int(steps), blocks=len(model.blockMaterial), nodes=len(model.position), zones=len(model.zoneNodes),
+		        contacts=len(model.pointStatus), **more
+		)
+		for pair, counts in crackCounts(model).items():
+			for mode, count in counts.items():
+				self.add(f"cracks_{pair}_{mode}", "1", count)
+
+	def close(self, cpu, wall):
+		"""Takes the CPU and wall-clock time of the whole run [s]."""
+		steps = self.costs.get("steps")
+		stepping = cpu if self.steppingTime is None else self.steppingTime
+		self.costs.update(
+		        cpu_s=cpu, wall_s=wall, us_per_step=1e6 * stepping / steps if steps else None,
+		        peak_rss_mb=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e6
+		)
+
+
+class Results:
+	"""Gathers the runs of a scenario. `parameters`: from scenario.parameters."""
+
+	def __init__(self, parameters):
+		self.parameters = parameters
+		self.folder = parameters.folder
+		self.runs = []
+
+	@contextmanager
+	def run(self, seed):
+		"""A run with this tessellation, timed from here to the end of the block; one that fails leaves nothing."""
+		run = Run(seed, getattr(self.parameters, "threads", 1))
+		cpu, wall = time.process_time(), time.perf_counter()
+		yield run
+		run.close(time.process_time() - cpu, time.perf_counter() - wall)
+		self.runs.append(run)
+
+	@property
+	def quantities(self):
+		"""The quantities over all runs, in the order in which they were first added."""
+		samples = {}
+		for run in self.runs:
+			for quantity in run.quantities.values():
+				samples.setdefault(quantity.name, []).append(quantity)
+		return [_mean(quantities, len(self.runs)) for quantities in samples.values()]
+
+	def __getitem__(self, name):
+		"""The Quantity of this name over all runs."""
+		return {quantity.name: quantity for quantity in self.quantities}[name]
+
+	@property
+	def curves(self):
+		"""The histories of all runs, one below the other (a pandas.DataFrame whose first column is `seed`)."""
+		import pandas
+		return pandas.concat([run.table for run in self.runs if run.table is not None], ignore_index=True)
+
+	def asDict(self):
+		"""result.json as a dictionary. Cost is that of the first run; of each quality the worst run's."""
+		costs = self.runs[0].costs if self.runs else {}
+		keys = "cpu_s wall_s steps us_per_step blocks nodes zones contacts peak_rss_mb threads".split()
+		qualities = "unbalanced_ratio_max half_rate_change energy_error".split()
+		return {
+		        "scenario": self.parameters.scenario,
+		        "parameters": self.parameters.asDict(),
+		        "seed": getattr(self.parameters, "seed", None),
+		        "quantities": [quantity.asDict() for quantity in self.quantities],
+		        "cost": {**{key: costs.get(key) for key in keys}, **costs},
+		        "quality": {name: max((run.qualities[name] for run in self.runs if name in run.qualities), key=abs, default=None) for name in qualities},
+		}
+
+	def report(self):
+		"""The table for the terminal: measured (with scatter), expected, error, source; then what the run cost."""
+		rows = [("quantity", "unit", "measured", "expected", "error", "source")]
+		for q in self.quantities:
+			measured = _short(q.measured) + ("" if q.scatter is None else f" ± {_short(q.scatter, 2)}")
+			error = "" if q.error is None else f"{100 * q.error:+.1f} %"
+			rows.append((q.name, "" if q.unit == "1" else q.unit, measured, _short(q.expected), error, q.source or ""))
+		widths = [max(map(len, column)) for column in zip(*rows)]
+		justify = (str.ljust, str.ljust, str.ljust, str.rjust, str.rjust, str.ljust)
+		lines = ["  ".join(put(cell, width) for put, cell, width in zip(justify, row, widths)).rstrip() for row in rows]
+		lines.insert(1, "-" * max(map(len, lines)))
+		return "\n".join([self._heading(), *lines, *self._remarks()])
+
+	def write(self):
+		"""Writes result.json and curve.csv, prints the table; returns the folder."""
+		self.folder.mkdir(parents=True, exist_ok=True)
+		(self.folder / "result.json").write_text(json.dumps(jsonable(self.asDict()), indent=1, allow_nan=False) + "\n")
+		if any(run.table is not None for run in self.runs):
+			self.curves.to_csv(self.folder / "curve.csv", index=False, float_format="%.7g")
+		print(self.report())
+		return self.folder
+
+	def _heading(self):
+		seeds = [run.seed for run in self.runs]
+		return f"\n{self.folder.name}: " + (f"seed {seeds[0]}" if len(seeds) == 1 else f"means of {len(seeds)} seeds, ± standard deviation of one")
+
+	def _remarks(self):
+		result = jsonable(self.asDict())
+		quality = [f"{name} {value:.2g}" for name, value in result["quality"].items() if value is not None]
+		cost = [
+		        f"{result['cost'][key]:.4g} {unit}" for key, unit in
+		        (("cpu_s", "CPU s"), ("wall_s", "s"), ("steps", "steps"), ("us_per_step", "µs/step"), ("zones", "zones"), ("contacts", "contact points"))
+		        if result["cost"][key] is not None
+		]
+		return ["quality: " + ", ".join(quality)] * bool(quality) + ["one run: " + ", ".join(cost)] * bool(cost) + [f"see {self.folder}"]
+
+
+def jsonable(value):
+	"""Plain Python values for json: numpy's numbers and arrays become Python's, NaN and infinity None."""
+	if isinstance(value, dict):
+		return {str(key): jsonable(item) for key, item in value.items()}
+	if isinstance(value, (list, tuple, np.ndarray)):
+		return [jsonable(item) for item in value]
+	if isinstance(value, (bool, np.bool_)):
+		return bool(value)
+	if isinstance(value, numbers.Integral):
+		return int(value)
+	if isinstance(value, numbers.Real):
+		return float(value) if math.isfinite(value) else None
+	return value if value is None else str(value)
+
+
+def _mean(quantities, runs):
+	"""One quantity for the samples of several runs. A sample that is missing or NaN makes the mean NaN: it would be one of other seeds."""
+	first = quantities[0]
+	for other in quantities[1:]:
+		if (other.unit, other.expected, other.source) != (first.unit, first.expected, first.source):
+			raise ValueError(f"quantity {first.name} must have one unit, expected value and source in all runs, got {first} and {other}")
+	if runs == 1:
+		return first
+	samples = np.array([quantity.measured for quantity in quantities] + [math.nan] * (runs - len(quantities)))
+	return Quantity(first.name, first.unit, samples.mean(), first.expected, first.source, samples.std(ddof=1))
+
+
+def _short(number, digits=4):
+	return "" if number is None else "-" if not math.isfinite(number) else f"{number:.{digits}g}"

@@ -1,0 +1,54 @@
+# yade-blocks, GPL-2.0-or-later
+"""Choosing and measuring: rectangles, grid points and edges by place, gauges across joints."""
+import numpy as np
+
+
+def rectangle(x0, y0, x1, y1):
+	"""Corners of a rectangle, counter-clockwise [m]."""
+	return [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
+
+
+def nodesWhere(model, rule, label=None):
+	"""Indices of the grid points for which rule(x, y) holds in the reference state.
+
+	rule gets two arrays [m] and returns a boolean array; label keeps to blocks of one material.
+	An empty choice is a ValueError: a condition that reaches nothing is a mistake.
+	"""
+	x, y = model.reference.T
+	chosen = np.asarray(rule(x, y), dtype=bool)
+	if label is not None: chosen &= np.repeat(blocksOf(model, label), np.diff(model.firstNode))
+	if not chosen.any(): raise ValueError('nodesWhere: no grid point is chosen by the rule')
+	return np.flatnonzero(chosen)
+
+
+def edgesWhere(model, rule, label=None):
+	"""Indices of the boundary edges both of whose ends are chosen by rule(x, y); see nodesWhere."""
+	inside = np.zeros(model.nodeCount, dtype=bool)
+	inside[nodesWhere(model, rule, label)] = True
+	edges = np.flatnonzero(inside[model.edgeNodes].all(axis=1))
+	if not len(edges): raise ValueError('edgesWhere: no boundary edge is chosen by the rule')
+	return edges
+
+
+def blocksOf(model, label):
+	"""Boolean array over the blocks: which are of the material with this label."""
+	labels = list(model.materialLabels)
+	if label not in labels: raise ValueError('no material %r in the model; there are %s' % (label, ', '.join(labels)))
+	return model.blockMaterial == labels.index(label)
+
+
+class Gauge:
+	"""Mean displacement of some grid points relative to others, as an LVDT across a joint reads it.
+
+	>>> gauge = Gauge(model, below=nodesWhere(...), above=nodesWhere(...), axis='y')
+	>>> gauge()  # [m]
+	"""
+
+	def __init__(self, model, below, above, axis='y'):
+		if axis not in ('x', 'y'): raise ValueError("Gauge: axis must be 'x' or 'y', got %r" % axis)
+		self.model, self.below, self.above, self.axis = model, below, above, 'xy'.index(axis)
+
+	def __call__(self):
+		position, reference, axis = self.model.position, self.model.reference, self.axis
+		displacement = lambda nodes: (position[nodes, axis] - reference[nodes, axis]).mean()
+		return displacement(self.above) - displacement(self.below)
