@@ -1,0 +1,138 @@
+# yade-blocks, GPL-2.0-or-later
+"""Direct tension of a masonry couplet (paper, section 3.1; experiment of Van der Pluijm 1992, wire-cut bricks, 1:1:6 mortar).
+
+Two clay bricks, 100 x 50 x 50 mm, and a mortar joint of 15 mm made of Voronoi blocks are pulled apart, the top moving up at
+0.02 mm/s. Stress is the force on the loaded edge by its area, displacement the mean opening across the mortar layer.
+
+	scripts/run.sh tension [case=TT1|TT2|TT2b|TT3] [key=value ...]        about 4 s a seed
+
+	TT1   mortar joints stronger (Table 2) than those between brick and mortar (Table 3); cracks run along the bricks
+	TT2   Table 3 for all joints, 2 mm: 0.35 N/mm2; cracks in the mortar and along the bricks
+	TT2b  Table 2 for all joints: the other way to make them equal, about 0.5 N/mm2
+	TT3   TT2 with blocks of 6 mm: 0.43 N/mm2
+
+Size means sqrt(mean area) unless sizeMeaning=edge. The stiffness across the layer should be that of the series
+1/K = h/E' + h/(0.92 kn s) + 1/kn, with s = sqrt(mean area) and E' = E/(1 - nu^2) in plane strain.
+halfRate=true repeats every run at half the loading rate and reports the change of the peak.
+"""
+from math import radians
+
+import numpy as np
+
+import yadeblocks
+from yade import *
+from yadeblocks import pictures, scenario
+from yadeblocks.export import BlocksExport
+from yadeblocks.progress import Progress, loadingLine
+from yadeblocks.results import Results
+from yadeblocks.specimen import Gauge, nodesWhere, rectangle
+
+# ---- parameters (SI)
+
+length, brickHeight, thickness, mortarHeight = 0.1, 0.05, 0.05, 0.015 # [m]
+brick = dict(young=16.7e9, poisson=0.2, density=1900) # Table 1
+mortar = dict(young=2.974e9, poisson=0.2, density=1250)
+table2 = dict(kn=400e9, ks=200e9, frictionAngle=radians(38), cohesion=0.75e6, tension=0.75e6, dilationAngle=radians(4))
+table3 = dict(table2, cohesion=0.60e6, tension=0.60e6)
+cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [MPa], its source
+	'TT1': (table2, table3, 2e-3, 0.35, 'Van der Pluijm 1992'),
+	'TT2': (table3, table3, 2e-3, 0.35, 'paper, Fig. 10'),
+	'TT2b': (table2, table2, 2e-3, None, None),
+	'TT3': (table3, table3, 6e-3, 0.43, 'paper, Fig. 10'),
+}
+stroke, velocity = 0.03e-3, 0.02e-3 # [m], [m/s]
+
+p = scenario.parameters(
+	{**scenario.commonParameters(size=0.0, sizeMeaning='sqrtArea', lloyd=1, steps=40000), 'case': 'TT2', 'brickZone': 8e-3, 'halfRate': False, 'vtk': True},
+	{'case': tuple(cases), 'size': scenario.Rule(lambda s: 0 <= s < mortarHeight, 'must be positive and smaller than the mortar layer (0: of the case)'),
+	 'brickZone': scenario.positive})
+mortarJoint, unitJoint, caseSize, expectedPeak, source = cases[p.case]
+p.size = p.size or caseSize
+area, duration = length * thickness, stroke / velocity
+
+
+def build(seed):
+	"""The couplet in the scene; the model and the measured sqrt(mean area) of its cells [m]."""
+	O.reset()
+	O.materials.append(BlockMat(label='unit', **brick))
+	O.materials.append(BlockMat(label='mortar', **mortar))
+	low, high = brickHeight, brickHeight + mortarHeight
+	model = BlockModel(thickness=thickness, planeStress=p.plane == 'stress')
+	cells = model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=p.size, sizeMeaning=p.sizeMeaning, lloyd=p.lloyd, seed=seed)
+	model.addRegion(rectangle(0, 0, length, low), 'unit', zoneSize=p.brickZone)
+	model.addRegion(rectangle(0, high, length, high + brickHeight), 'unit', zoneSize=p.brickZone)
+	model.bond()
+	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
+	model.drive('top', nodesWhere(model, lambda x, y: y > high + brickHeight - 1e-9), 'y', velocity=velocity, rampTime=0.05 * duration)
+	model.insert()
+	return model, cells['meanSqrtArea']
+
+
+def pull(model, steps, progressLabel):
+	"""Loads until the stress has fallen to half the peak. Columns: displacement [m], stress [Pa], broken contact points, unbalanced ratio."""
+	low, high = brickHeight, brickHeight + mortarHeight
+	gauge = Gauge(model, below=nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), above=nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit'))
+	history = []
+
+	def record():
+		stress = model.groupForce('top') / area
+		history.append((gauge(), stress, np.count_nonzero(model.pointStatus), model.unbalancedRatio(floor=1e-3 * unitJoint['tension'] * area)))
+		progress(O.iter)
+		if history[-1][2] and stress < 0.5 * max(h[1] for h in history): O.pause()
+
+	O.dt = duration / steps
+	O.engines = [
+		InteractionLoop([Ig2_Block_Block_BlockGeom()],            # opening and slip
+		                [Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
+		                        JointMat(material1='mortar', material2='mortar', **mortarJoint),
+		                        JointMat(material1='unit', material2='mortar', **unitJoint)])],
+		                [Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
+		BlockTimeStepper(),                                        # scaled masses
+		BlockForces(),                                             # zones and joints, gathered node by node
+		BlockIntegrator(damping=p.damping, alpha=p.alpha),         # motion
+		PyRunner(command='record()', iterPeriod=50)]
+	globals()['record'] = record
+	with Progress(steps, lambda: loadingLine(history[-1][0], history[-1][1], model), label=progressLabel) as progress:
+		O.run(steps, True)
+	return np.array(history).T
+
+
+def seriesStiffness(s):
+	"""Stiffness across the layer per area [Pa/m], for cells of this sqrt(mean area) [m]."""
+	modulus = mortar['young'] / (1 - mortar['poisson']**2 if p.plane == 'strain' else 1)
+	kn = unitJoint['kn']
+	return 1 / (mortarHeight / modulus + mortarHeight / (0.92 * kn * s) + 1 / kn)
+
+
+# ---- running
+
+results = Results(p)
+for seed in p.seedList:
+	with results.run(seed) as run:
+		model, s = build(seed)
+		if seed == p.seed and p.vtk: export = BlocksExport(p.folder); export.write(model, O.time)
+		with run.stepping():
+			displacement, stress, broken, unbalanced = pull(model, p.steps, 'seed %d' % seed)
+		peak = stress.argmax()
+		elastic = stress < 0.3 * stress.max()
+		elastic[peak:] = False
+		elastic[:len(stress) // 50] = False
+
+		run.add('peak_tensile_stress', 'MPa', stress[peak] / 1e6, expectedPeak, source)
+		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
+		run.add('joint_stiffness', 'N/mm3', np.polyfit(displacement[elastic], stress[elastic], 1)[0] / 1e9, seriesStiffness(p.size if p.sizeMeaning == 'sqrtArea' else s) / 1e9, 'series of mortar and joints')
+		run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
+		run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, broken=broken)
+		run.model(model, steps=O.iter)
+		run.quality(unbalanced_ratio_max=unbalanced[len(unbalanced) // 10:].max())
+	if seed == p.seed:
+		if p.vtk: export.write(model, O.time)
+		pictures.drawCracks(p.folder / 'cracks.png', model, title='Couplet in tension, %s, seed %d' % (p.case, seed))
+	if p.halfRate:
+		slow = pull(build(seed)[0], 2 * p.steps, 'seed %d, half rate' % seed)[1].max()
+		run.quality(half_rate_change=slow / stress[peak] - 1)
+
+results.write()
+pictures.drawCurve(p.folder / 'curve.png', results.curves, 'displacement_mm', 'stress_MPa',
+	labels=('mean opening across the mortar layer [mm]', 'tensile stress [N/mm²]'), title='Couplet in tension, %s' % p.case)
+scenario.waitIfBatch()

@@ -1,0 +1,6 @@
+#!/bin/bash
+# Builds and runs all tests; arguments go to ctest (e.g. -L kernel). Ends with ctest's summary.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/setup.sh
+ctest --test-dir build --output-on-failure "$@"
