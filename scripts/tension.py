@@ -43,9 +43,9 @@ cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [M
 stroke, velocity = 0.03e-3, 0.02e-3 # [m], [m/s]
 
 p = scenario.parameters(
-	{**scenario.commonParameters(size=0.0, sizeMeaning='sqrtArea', lloyd=1, steps=40000), 'case': 'TT2', 'brickZone': 8e-3, 'halfRate': False, 'vtk': True},
+	{**scenario.commonParameters(size=0.0, sizeMeaning='sqrtArea', lloyd=1, steps=40000), 'case': 'TT2', 'brickZone': 8e-3, 'merge': 0.05, 'halfRate': False, 'vtk': True},
 	{'case': tuple(cases), 'size': scenario.Rule(lambda s: 0 <= s < mortarHeight, 'must be positive and smaller than the mortar layer (0: of the case)'),
-	 'brickZone': scenario.positive})
+	 'brickZone': scenario.positive, 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')})
 mortarJoint, unitJoint, caseSize, expectedPeak, source = cases[p.case]
 p.size = p.size or caseSize
 area, duration = length * thickness, stroke / velocity
@@ -58,7 +58,7 @@ def build(seed):
 	O.materials.append(BlockMat(label='mortar', **mortar))
 	low, high = brickHeight, brickHeight + mortarHeight
 	model = BlockModel(thickness=thickness, planeStress=p.plane == 'stress')
-	cells = model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=p.size, sizeMeaning=p.sizeMeaning, lloyd=p.lloyd, seed=seed)
+	cells = model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=p.size, sizeMeaning=p.sizeMeaning, lloyd=p.lloyd, seed=seed, mergeFraction=p.merge)
 	model.addRegion(rectangle(0, 0, length, low), 'unit', zoneSize=p.brickZone)
 	model.addRegion(rectangle(0, high, length, high + brickHeight), 'unit', zoneSize=p.brickZone)
 	model.bond()

@@ -5,7 +5,6 @@ Otherwise the plugin is the one built in this checkout (build/libyadeblocks.so),
 environment variable YADEBLOCKS_PLUGIN.
 """
 import ctypes
-import filecmp
 import glob
 import os
 import re
@@ -29,20 +28,11 @@ def importYade():
 	return yade
 
 
-def loadedLibrary(name):
-	"""The library of that name if it is in this process, else None."""
-	try:
-		return ctypes.PyDLL(name, os.RTLD_NOLOAD | os.RTLD_GLOBAL | os.RTLD_NOW)
-	except OSError:
-		return None
-
-
-def pathOf(library):
-	"""Where a loaded library came from."""
-	name = os.path.basename(library._name)
+def loadedFrom(name):
+	"""The path of the library of that name in this process, or None."""
 	with open('/proc/self/maps') as maps:
-		paths = {line.split(maxsplit=5)[5].strip() for line in maps if line.rstrip().endswith('/' + name)}
-	return paths.pop() if paths else name
+		paths = {line.split(maxsplit=5)[5].rstrip('\n') for line in maps if line.rstrip('\n').endswith('/' + name)}
+	return paths.pop() if paths else None
 
 
 def checkVersion(path, yade):
@@ -66,9 +56,7 @@ def builtPlugin():
 def load(path, yade):
 	"""Loads a plugin into a running YADE and registers its classes."""
 	checkVersion(path, yade)
-	library = ctypes.PyDLL(path, os.RTLD_GLOBAL | os.RTLD_NOW)
-	library.yadeRegisterNewClasses()
-	return library
+	ctypes.PyDLL(path, os.RTLD_GLOBAL | os.RTLD_NOW).yadeRegisterNewClasses()
 
 
 def publish(yade):
@@ -86,12 +74,11 @@ def publish(yade):
 yade = importYade()
 import yade.system, yade.wrapper, yade.config
 
-library = loadedLibrary(libraryName)
-if library is None:
-	path = builtPlugin()
-	if path is None: raise ImportError('%s is not built: run scripts/setup.sh, or install the package yade-blocks' % libraryName)
-	if not os.path.exists(path): raise ImportError('there is no %s (from YADEBLOCKS_PLUGIN)' % path)
-	library = load(path, yade)
-elif builtPlugin() and not filecmp.cmp(builtPlugin(), pathOf(library), shallow=False):
-	print('yadeblocks: using %s, which YADE has loaded already, not %s' % (pathOf(library), builtPlugin()), file=sys.stderr)
+path, built = loadedFrom(libraryName), builtPlugin()
+if path is None:
+	if built is None: raise ImportError('%s is not built: run scripts/setup.sh, or install the package yade-blocks' % libraryName)
+	if not os.path.exists(built): raise ImportError('there is no %s (from YADEBLOCKS_PLUGIN)' % built)
+	load(built, yade)
+elif built and os.path.realpath(built) != os.path.realpath(path):
+	print('yadeblocks: YADE has loaded %s already, %s is not used' % (path, built), file=sys.stderr)
 publish(yade)

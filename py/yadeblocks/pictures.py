@@ -10,6 +10,7 @@ import math
 from collections import defaultdict, namedtuple
 from contextlib import contextmanager
 from itertools import cycle
+from pathlib import Path
 
 import numpy as np
 
@@ -74,7 +75,7 @@ def drawCracks(path, model, magnification=None, window=None, title=""):
 	shown = reference + magnification * displacement
 
 	low, high = _window(reference, shown) if window is None else np.reshape(window, (2, 2))
-	width, height = min(1, 1.3 * (high - low)[0] / (high - low)[1]) * _textWidth * np.array([1, (high - low)[1] / (high - low)[0]])
+	width, height = (high - low) * min(_textWidth / (high - low)[0], 1.3 * _textWidth / (high - low)[1])
 	with _picture(path, width, height) as figure:
 		axes = figure.add_axes((0, 0, 1, 1), xlim=(low[0], high[0]), ylim=(low[1], high[1]))
 		axes.axis("off")
@@ -98,6 +99,7 @@ def _picture(path, width, height):
 		figure = Figure(figsize=(width, height))
 		FigureCanvasAgg(figure)
 		yield figure
+		Path(path).parent.mkdir(parents=True, exist_ok=True)
 		figure.savefig(path, dpi=300, bbox_inches="tight", pad_inches=0.06)
 
 

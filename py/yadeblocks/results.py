@@ -202,7 +202,7 @@ class Results:
 		result = jsonable(self.asDict())
 		quality = [f"{name} {value:.2g}" for name, value in result["quality"].items() if value is not None]
 		cost = [
-		        f"{result['cost'][key]:.4g} {unit}" for key, unit in
+		        f"{_short(result['cost'][key])} {unit}" for key, unit in
 		        (("cpu_s", "CPU s"), ("wall_s", "s"), ("steps", "steps"), ("us_per_step", "µs/step"), ("zones", "zones"), ("contacts", "contact points"))
 		        if result["cost"][key] is not None
 		]
@@ -237,4 +237,6 @@ def _mean(quantities, runs):
 
 
 def _short(number, digits=4):
+	if isinstance(number, int):
+		return str(number)
 	return "" if number is None else "-" if not math.isfinite(number) else f"{number:.{digits}g}"

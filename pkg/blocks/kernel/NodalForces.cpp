@@ -5,39 +5,83 @@
 namespace blocks {
 namespace {
 
-	template <Strain kind> void addZoneForces(const Moduli& m, int first, int last, const BlockAssembly& a, Vec2* force)
+	/// So many zones at a time: their edge vectors are gathered, their forces computed side by side, then added node by node.
+	constexpr int batch = 64;
+
+	struct Batch {
+		alignas(64) Real px[batch], py[batch], qx[batch], qy[batch]; ///< edge vectors x1 - x0 and x2 - x0 [m]
+		alignas(64) Real f1x[batch], f1y[batch], f2x[batch], f2y[batch]; ///< on nodes 1 and 2 [N]
+	};
+
+	/// The arithmetic proper, without indirections. AVX2 only widens it; without fused operations the bits are the same.
+	template <Strain kind> inline __attribute__((always_inline)) void forcesOfBatch(Batch& b, const ZoneGradients* g, const Real* volume, const Moduli& m, int count)
 	{
-		const Vec2* x = a.position.data();
-		for (int z = first; z < last; ++z) {
-			const auto&         node = a.zoneNodes[z];
-			const ZoneGradients& g   = a.zoneGradient[z];
-			const Vec2           p = x[node[1]] - x[node[0]], q = x[node[2]] - x[node[0]];
-			const ZoneStrain     e = zoneStrain<kind>(g, p.x(), p.y(), q.x(), q.y());
-			const ZoneForces     f = zoneForces<kind>(g, a.zoneVolume[z], zoneStress(m, e), e);
-			force[node[1]] += Vec2(f.f1x, f.f1y);
-			force[node[2]] += Vec2(f.f2x, f.f2y);
-			force[node[0]] -= Vec2(f.f1x + f.f2x, f.f1y + f.f2y);
+		const Moduli moduli = m;
+		for (int i = 0; i < count; ++i) {
+			const ZoneStrain e = zoneStrain<kind>(g[i], b.px[i], b.py[i], b.qx[i], b.qy[i]);
+			const ZoneForces f = zoneForces<kind>(g[i], volume[i], zoneStress(moduli, e), e);
+			b.f1x[i]           = f.f1x;
+			b.f1y[i]           = f.f1y;
+			b.f2x[i]           = f.f2x;
+			b.f2y[i]           = f.f2y;
+		}
+	}
+	__attribute__((target_clones("avx2", "default"))) void largeStrain(Batch& b, const ZoneGradients* g, const Real* volume, const Moduli& m, int count)
+	{
+		forcesOfBatch<Strain::large>(b, g, volume, m, count);
+	}
+	__attribute__((target_clones("avx2", "default"))) void smallStrain(Batch& b, const ZoneGradients* g, const Real* volume, const Moduli& m, int count)
+	{
+		forcesOfBatch<Strain::small>(b, g, volume, m, count);
+	}
+
+	void addZoneForces(const Moduli& m, int first, int last, const BlockAssembly& a, Vec2* force)
+	{
+		const Real*                 x     = a.position.data()->data();
+		Real*                       f     = force->data();
+		const std::array<int, 3>*   nodes = a.zoneNodes.data();
+		const auto                  law   = a.strain == Strain::large ? largeStrain : smallStrain;
+		Batch                       b;
+		for (int start = first; start < last; start += batch) {
+			const int count = std::min(batch, last - start);
+			for (int i = 0; i < count; ++i) {
+				const auto& node = nodes[start + i];
+				const Real  x0 = x[2 * node[0]], y0 = x[2 * node[0] + 1];
+				b.px[i] = x[2 * node[1]] - x0, b.py[i] = x[2 * node[1] + 1] - y0;
+				b.qx[i] = x[2 * node[2]] - x0, b.qy[i] = x[2 * node[2] + 1] - y0;
+			}
+			law(b, &a.zoneGradient[start], &a.zoneVolume[start], m, count);
+			for (int i = 0; i < count; ++i) {
+				const auto& node = nodes[start + i];
+				f[2 * node[0]] -= b.f1x[i] + b.f2x[i], f[2 * node[0] + 1] -= b.f1y[i] + b.f2y[i];
+				f[2 * node[1]] += b.f1x[i], f[2 * node[1] + 1] += b.f1y[i];
+				f[2 * node[2]] += b.f2x[i], f[2 * node[2] + 1] += b.f2y[i];
+			}
 		}
 	}
 
-	void gatherBlock(BlockAssembly& a, int block)
+	/// Blocks [first, last): loads, then joints, then zones; runs of blocks of one material share their batches.
+	void gatherBlocks(BlockAssembly& a, int first, int last)
 	{
-		Vec2* force = a.force.data();
-		const int first = a.firstNode[block], last = a.firstNode[block + 1];
-		if (a.load.empty()) std::fill(force + first, force + last, Vec2::Zero());
-		else std::copy(a.load.begin() + first, a.load.begin() + last, force + first);
+		Vec2*     force = a.force.data();
+		const int node = a.firstNode[first], nodeEnd = a.firstNode[last];
+		if (a.load.empty()) std::fill(force + node, force + nodeEnd, Vec2::Zero());
+		else std::copy(a.load.begin() + node, a.load.begin() + nodeEnd, force + node);
 
-		for (int i = a.firstSide[block]; i < a.firstSide[block + 1]; ++i) {
-			const int segment = a.sides[i] >> 1, corner = 2 * (a.sides[i] & 1);
-			for (int k : { corner, corner + 1 })
-				force[a.segments[segment].node[k]] += a.segmentForce[segment][k];
+		const int*     sides    = a.sides.data();
+		const Segment* segments = a.segments.data();
+		const auto*    forces   = a.segmentForce.data();
+		for (int i = a.firstSide[first], end = a.firstSide[last]; i < end; ++i) {
+			const int segment = sides[i] >> 1, corner = 2 * (sides[i] & 1);
+			force[segments[segment].node[corner]] += forces[segment][corner];
+			force[segments[segment].node[corner + 1]] += forces[segment][corner + 1];
 		}
-		const int zone = a.firstZone[block], end = a.firstZone[block + 1];
-		if (zone == end) return;
-		const Material& material = a.materials[a.blockMaterial[block]];
-		const Moduli    moduli   = planeModuli(material.young, material.poisson, a.plane);
-		if (a.strain == Strain::large) addZoneForces<Strain::large>(moduli, zone, end, a, force);
-		else addZoneForces<Strain::small>(moduli, zone, end, a, force);
+		for (int run = first, next; run < last; run = next) {
+			const int material = a.blockMaterial[run];
+			for (next = run + 1; next < last && a.blockMaterial[next] == material; ++next) { }
+			const Material& m = a.materials[material];
+			addZoneForces(planeModuli(m.young, m.poisson, a.plane), a.firstZone[run], a.firstZone[next], a, force);
+		}
 	}
 
 	Vec2* loads(BlockAssembly& a)
@@ -61,11 +105,17 @@ void computeJointForces(BlockAssembly& a, [[maybe_unused]] int threads)
 		segmentForces(a.segments[i], a.frames[i], &a.points[2 * i], a.segmentForce[i]);
 }
 
-void gatherForces(BlockAssembly& a, [[maybe_unused]] int threads)
+void gatherForces(BlockAssembly& a, int threads)
 {
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-	for (int block = 0; block < a.blockCount(); ++block)
-		gatherBlock(a, block);
+	if (threads == 1) return gatherBlocks(a, 0, a.blockCount());
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (int part = 0; part < threads; ++part) { // blocks with about equal numbers of zones
+		auto begin = [&](int p) {
+			return p == threads ? a.blockCount()
+			                    : int(std::lower_bound(a.firstZone.begin(), a.firstZone.end() - 1, long(a.zoneCount()) * p / threads) - a.firstZone.begin());
+		};
+		gatherBlocks(a, begin(part), begin(part + 1));
+	}
 }
 
 ZoneStress cauchyStress(const BlockAssembly& a, int block, int zone)

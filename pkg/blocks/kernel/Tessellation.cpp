@@ -692,8 +692,8 @@ public:
 		for (size_t c = 0; c < cells.size(); ++c)
 			queueEdges(int(c));
 		mergeEdges();
-		for (size_t c = 0; c < cells.size(); ++c)
-			while (trim(int(c))) { }
+		for (size_t c = 0; c < cells.size(); ++c) // cells added by divide() have their turn too
+			while (trim(int(c)) || divide(int(c))) { }
 		mergeEdges();
 		for (size_t c = 0; c < cells.size(); ++c)
 			if (!cells[c].empty() && thin(int(c))) flatten(int(c));
@@ -906,6 +906,36 @@ private:
 				if (changed.size() != 2) continue;
 				dissolve(tip);
 				if (acceptChanges()) return true;
+			}
+		return false;
+	}
+
+	/// A cell may pass a reflex corner of the region by a neck narrower than a short edge. Moves the node on the other
+	/// side of the neck to the corner, so that the cell becomes two.
+	bool divide(int cell)
+	{
+		const IntRing ring = cells[cell];
+		const size_t  n    = ring.size();
+		for (size_t k = 0; k < n; ++k)
+			for (size_t m = 2; m + 1 < n; ++m) { // the nodes that are not next to k
+				const int corner = ring[k], node = ring[(k + m) % n];
+				if (d.place[corner].kind != Place::corner || d.place[node].kind != Place::inside || length(corner, node) >= shortest) continue;
+				changed.clear();
+				bool possible = true;
+				for (int c : around[node]) {
+					possible         = possible && (c == cell || !std::count(cells[c].begin(), cells[c].end(), corner));
+					IntRing& other   = changed[c] = cells[c];
+					std::replace(other.begin(), other.end(), node, corner);
+				}
+				IntRing turned = ring; // from the corner on
+				std::rotate(turned.begin(), turned.begin() + k, turned.end());
+				changed[cell]              = IntRing(turned.begin(), turned.begin() + m);
+				changed[int(cells.size())] = IntRing(turned.begin() + m, turned.end());
+				changed[int(cells.size())].front() = corner;
+				if (!possible || m < 3 || n - m < 3) continue;
+				cells.emplace_back();
+				if (acceptChanges(length(corner, node) <= tolerance)) return true;
+				cells.pop_back();
 			}
 		return false;
 	}

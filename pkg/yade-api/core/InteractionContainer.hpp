@@ -38,7 +38,7 @@ public:
 	const shared_ptr<Interaction>& find(Body::id_t id1, Body::id_t id2); ///< null if there is none
 	bool                           insert(Body::id_t id1, Body::id_t id2);
 	bool                           insert(const shared_ptr<Interaction>&);
-	bool                           erase(Body::id_t id1, Body::id_t id2, int linPos = -1);
+	bool                           erase(Body::id_t id1, Body::id_t id2, int linPos); ///< linPos must be the interaction's linIx
 	void                           eraseNonReal();
 	void                           requestErase(Body::id_t id1, Body::id_t id2);
 	void                           requestErase(const shared_ptr<Interaction>&);

@@ -1,0 +1,72 @@
+// yade-blocks, GPL-2.0-or-later
+#include "BlockCrackRecorder.hpp"
+#include <blocks/kernel/ContactKinematics.hpp>
+#include <core/Omega.hpp>
+#include <fstream>
+
+namespace yade {
+
+BlockCrackRecorder::~BlockCrackRecorder() = default;
+
+namespace {
+	const char* nameOf(int mode) { return mode == int(blocks::Joint::brokenInTension) ? "tension" : "shear"; }
+
+	string labelOf(const BlockModel& model, int block) { return model.materialLabels[model.assembly.blockMaterial[block]]; }
+}
+
+void BlockCrackRecorder::action()
+{
+	const BlockModel&            model = modelOf(scene);
+	const blocks::BlockAssembly& a     = model.assembly;
+	if (known.size() != a.points.size()) { // the first look: what is broken already is no event
+		known.clear();
+		for (const auto& p : a.points)
+			known.push_back(int(p.joint.status));
+		if (!fileName.empty()) std::ofstream(fileName) << "step time x y nx ny mode body1 body2 material1 material2\n";
+	}
+	const size_t before = points.size();
+	for (size_t i = 0; i < a.points.size(); ++i) {
+		const int status = int(a.points[i].joint.status);
+		if (status == known[i]) continue;
+		known[i] = status;
+		points.push_back(int(i));
+		modes.push_back(status);
+		steps.push_back(scene->iter);
+		times.push_back(scene->time);
+		positions.push_back(blocks::contactPosition(a, int(i)));
+	}
+	if (fileName.empty() || points.size() == before) return;
+	std::ofstream file(fileName, std::ios::app);
+	file.precision(9);
+	for (size_t e = before; e < points.size(); ++e) {
+		const auto& g     = a.segments[points[e] / 2];
+		const auto& frame = a.frames[points[e] / 2];
+		file << steps[e] << ' ' << times[e] << ' ' << positions[e].x() << ' ' << positions[e].y() << ' ' << frame.nx << ' ' << frame.ny << ' ' << nameOf(modes[e]) << ' '
+		     << model.firstBody + g.block[0] << ' ' << model.firstBody + g.block[1] << ' ' << labelOf(model, g.block[0]) << ' ' << labelOf(model, g.block[1]) << '\n';
+	}
+	if (!file) throw std::runtime_error("BlockCrackRecorder.fileName: cannot write to " + fileName);
+}
+
+py::list BlockCrackRecorder::events() const
+{
+	py::list list;
+	if (points.empty()) return list;
+	const BlockModel& model = BlockModel::of(Omega::instance().getScene().get());
+	for (size_t e = 0; e < points.size(); ++e) {
+		const auto& g = model.assembly.segments[points[e] / 2];
+		py::dict    event;
+		event["step"]      = steps[e];
+		event["time"]      = times[e];
+		event["position"]  = positions[e];
+		event["mode"]      = nameOf(modes[e]);
+		event["point"]     = points[e];
+		event["ids"]       = py::make_tuple(model.firstBody + g.block[0], model.firstBody + g.block[1]);
+		event["materials"] = py::make_tuple(labelOf(model, g.block[0]), labelOf(model, g.block[1]));
+		list.append(event);
+	}
+	return list;
+}
+
+YADE_PLUGIN((BlockCrackRecorder));
+
+} // namespace yade

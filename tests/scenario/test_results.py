@@ -1,0 +1,379 @@
+# yade-blocks, GPL-2.0-or-later
+"""What a scenario is told and what it leaves behind: parameters, result.json, curve.csv, pictures, ParaView files, progress.
+
+Only one test needs YADE: the model is a fake of three blocks in a column (a rigid platen, a unit of 3 x 1 mm, mortar) with
+two joints, whose numbers are all different.
+"""
+import io
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+import types
+from pathlib import Path
+from types import SimpleNamespace
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+package = Path(__file__).parents[2] / "py" / "yadeblocks"
+with pytest.MonkeyPatch.context() as patch: # the modules without the plugin, which importing their package would load
+	bare = types.ModuleType("yadeblocks")
+	bare.__path__ = [str(package)]
+	before = {name: sys.modules.pop(name) for name in list(sys.modules) if name.partition(".")[0] == "yadeblocks"}
+	patch.setitem(sys.modules, "yadeblocks", bare)
+	from yadeblocks import export, pictures, progress, results, scenario
+for name in [name for name in sys.modules if name.startswith("yadeblocks.")]: # other tests want the real package
+	del sys.modules[name]
+sys.modules.update(before)
+
+
+def column():
+	"""Blocks 0 mortar (bottom), 1 unit, 2 platen without zones; mm-sized rectangles of width 3; joints 0-1 and 1-2."""
+	corners = np.array([(0, 0), (3, 0), (3, 1), (0, 1)], float)
+	reference = 1e-3 * np.vstack([corners + (0, i) for i in range(3)])
+	edges = np.array([(4 * b + i, 4 * b + (i + 1) % 4) for b in range(3) for i in range(4)], np.int32)
+	zones = np.array([(0, 1, 2), (0, 2, 3), (4, 5, 6), (4, 6, 7)], np.int32)
+	position = reference.copy()
+	position[4:] += (1e-6, 2e-6) # unit and platen have moved away from the mortar
+	stress = np.array([(5., 1., 0.), (1., 2., 3.), (0., 0., 0.), (-4., -4., 0.)])
+	return SimpleNamespace(
+	        thickness=0.05, reference=reference, position=position, velocity=np.full((12, 2), (0.1, 0.2)), zoneNodes=zones,
+	        firstNode=np.array([0, 4, 8, 12]), firstZone=np.array([0, 2, 4, 4]), firstEdge=np.array([0, 4, 8, 12]),
+	        blockMaterial=np.array([0, 1, 2], np.int32), materialLabels=["mortar", "unit", "platen"], edgeNodes=edges,
+	        segmentNodes=np.array([(2, 3, 4, 5), (6, 7, 8, 9)], np.int32), segmentBlocks=np.array([(0, 1), (1, 2)], np.int32),
+	        segmentParameters=np.array([(0., 1., 1., 0.), (0., 1 / 3, 1., 2 / 3)]), segmentArea=np.array([75e-6, 25e-6]),
+	        pointOpening=np.array([1., 2., 3., 4.]), pointSlip=np.array([5., 6., 7., 8.]), pointSigma=np.array([9., 10., 11., 12.]),
+	        pointTau=np.array([13., 14., 15., 16.]), pointStatus=np.array([1, 2, 3, 3], np.uint8), zoneStress=lambda: stress
+	)
+
+
+# ---- parameters
+
+defaults = {**scenario.commonParameters(size=3.5e-3), "case": "TT1", "sigma": 1e5, "energy": False}
+allowed = {"case": ("TT1", "TT2"), "sigma": scenario.notNegative}
+
+
+def parsed(*words):
+	return scenario.parse(words, defaults, allowed, "shear")
+
+
+def test_parametersTakeTheTypesOfTheirDefaults():
+	p = parsed("seed=7", "steps=4e4", "sigma=5e5", "case=TT2", "energy=true", "seeds=3", "tag=a=1")
+	assert (p.seed, p.steps, p.sigma, p.case, p.energy) == (7, 40000, 5e5, "TT2", True)
+	assert type(p.steps) is int and p.size == 3.5e-3 and p.plane == "strain"
+	assert p.seedList == [7, 8, 9]
+	assert p.folder == Path("out/shear-a=1") and parsed().folder == Path("out/shear")
+	assert list(p.asDict()) == list(defaults)
+	assert parsed("case='TT2'").case == "TT2" # as tables of yade-batch quote
+
+
+@pytest.mark.parametrize(
+        "word, line", [
+                ("lloid=3", "shear has no parameter lloid (did you mean lloyd?); known: seed seeds"),
+                ("seed", "shear: arguments must have the form key=value, got seed"),
+                ("seed=1.5", "shear.seed must be a whole number, got 1.5"),
+                ("seed=nan", "shear.seed must be a whole number, got nan"),
+                ("size=two", "shear.size must be a number, got two"),
+                ("size=nan", "shear.size must be a number, got nan"),
+                ("size=inf", "shear.size must be positive, got inf"),
+                ("size=-1e-3", "shear.size must be positive, got -0.001"),
+                ("seeds=0", "shear.seeds must be at least 1, got 0"),
+                ("alpha=1", "shear.alpha must lie in [0, 1), got 1.0"),
+                ("sigma=-1", "shear.sigma must not be negative, got -1.0"),
+                ("case=TT9", "shear.case must be one of TT1, TT2, got 'TT9'"),
+                ("plane=stres", "shear.plane must be one of strain, stress, got 'stres'"),
+                ("energy=maybe", "shear.energy must be true or false, got maybe"),
+                ("tag=../x", "shear.tag must consist of letters"),
+        ]
+)
+def test_badInputIsRefusedInOneLine(word, line):
+	with pytest.raises(scenario.ParameterError) as error:
+		parsed(word)
+	assert str(error.value).startswith(line) and "\n" not in str(error.value)
+
+
+def test_contradictionsAreRefused():
+	with pytest.raises(scenario.ParameterError, match="seed must be given once"):
+		parsed("seed=1", "seed=2")
+	with pytest.raises(scenario.ParameterError, match="alpha must only be given with damping=local, got damping=none"):
+		parsed("alpha=0.5", "damping=none")
+	with pytest.raises(TypeError, match="not a parameter common"):
+		scenario.commonParameters(sizes=1)
+
+
+def test_commandLine(monkeypatch, capsys):
+	monkeypatch.setattr(sys, "argv", ["scripts/shear.py", "sigma=-1"])
+	with pytest.raises(SystemExit) as end:
+		scenario.parameters(defaults, allowed)
+	assert end.value.code == 2 and capsys.readouterr().err == "shear.sigma must not be negative, got -1.0\n"
+	monkeypatch.setattr(sys, "argv", ["scripts/shear.py", "help"])
+	with pytest.raises(SystemExit) as end:
+		scenario.parameters(defaults, allowed)
+	assert end.value.code == 0 and "case=TT1" in capsys.readouterr().out
+
+
+@pytest.mark.skipif(not shutil.which("yade"), reason="needs YADE")
+def test_parametersUnderYade(tmp_path):
+	"""Script arguments, exit code and threads as YADE has them, and a table line as yade-batch passes it on."""
+	(tmp_path / "shear.py").write_text(f"""if True:
+		import sys, types
+		package = sys.modules["yadeblocks"] = types.ModuleType("yadeblocks")
+		package.__path__ = [{str(package)!r}]
+		from yadeblocks import scenario
+		p = scenario.parameters({{**scenario.commonParameters(), "case": "TT1"}}, {{"case": ("TT1", "TT2")}})
+		scenario.waitIfBatch()
+		print(p.scenario, p.folder, p.case, p.seed, p.alpha, p.threads)""")
+	(tmp_path / "table").write_text("case seed alpha !THREADS\nTT2 3 * 1\n'TT1' 4 0.5 1\n")
+
+	def yade(*words, batch=""):
+		run = subprocess.run(["yade", "-n", "-x", *words], cwd=tmp_path, env={**os.environ, "YADE_BATCH": batch}, capture_output=True, text=True)
+		return run.returncode, run.stdout.splitlines()[-1], run.stderr.splitlines()[-1]
+
+	assert yade("-j2", "shear.py", "case=TT2", "seed=5")[:2] == (0, "shear out/shear TT2 5 0.3 2")
+	assert yade("shear.py", "threads=2")[::2] == (2, "shear.threads must be what YADE was started with (yade -j2), got 2 with -j1")
+	assert yade("shear.py", batch="table:2")[:2] == (0, "shear out/shear-case=TT2,seed=3,alpha=_,THREADS=1 TT2 3 0.3 1")
+	assert yade("shear.py", batch="table:3")[:2] == (0, "shear out/shear-case=TT1,seed=4,alpha=0.5,THREADS=1 TT1 4 0.5 1")
+	assert yade("shear.py", batch="table:9")[::2] == (2, "YADE_BATCH must name a line with parameters, got table:9")
+
+
+# ---- results
+
+
+def test_crackCountsByPairAndMode():
+	model = column()
+	assert results.crackCounts(model) == {"unit-mortar": {"tension": 1, "shear": 1}} # unit-platen was never bonded
+	model.pointStatus[:] = 0, 2, 2, 0
+	assert results.crackCounts(model) == {"platen-unit": {"tension": 0, "shear": 1}, "unit-mortar": {"tension": 0, "shear": 1}}
+
+
+def measured(p, peaks):
+	found = results.Results(p)
+	for seed, peak in zip(p.seedList, peaks):
+		with found.run(seed) as run:
+			with run.stepping():
+				sum(range(200000)) # steps cost CPU time
+			run.add("peak", "MPa", peak, expected=0.4, source="a book")
+			run.add("stiffness", "N/mm3", np.float32(50))
+			run.curve(displacement_mm=[0, 0.01], stress_MPa=[0, peak])
+			run.model(column(), steps=1000 * seed, ns_per_zone=5.)
+			run.quality(unbalanced_ratio_max=1e-3 * seed, half_rate_change=-0.02 / seed)
+	return found
+
+
+def test_resultOfOneSeed(tmp_path, monkeypatch, capsys):
+	monkeypatch.chdir(tmp_path)
+	folder = measured(parsed("seed=3", "tag=x"), [0.5]).write()
+	assert folder == Path("out/shear-x")
+	result = json.loads((folder / "result.json").read_text())
+	assert list(result) == ["scenario", "parameters", "seed", "quantities", "cost", "quality"]
+	assert result["scenario"] == "shear" and result["seed"] == 3 and result["parameters"]["case"] == "TT1"
+	assert result["quantities"][0] == {"name": "peak", "unit": "MPa", "measured": 0.5, "expected": 0.4, "source": "a book", "error": pytest.approx(0.25)}
+	assert result["quantities"][1] == {"name": "stiffness", "unit": "N/mm3", "measured": 50, "expected": None, "source": None, "error": None}
+	assert [q["name"] for q in result["quantities"][2:]] == ["cracks_unit-mortar_tension", "cracks_unit-mortar_shear"]
+	assert result["quality"] == {"unbalanced_ratio_max": 0.003, "half_rate_change": pytest.approx(-0.02 / 3), "energy_error": None}
+	cost = result["cost"]
+	assert set(cost) == set("cpu_s wall_s steps us_per_step blocks nodes zones contacts peak_rss_mb threads ns_per_zone".split())
+	assert (cost["steps"], cost["blocks"], cost["nodes"], cost["zones"], cost["contacts"], cost["threads"]) == (3000, 3, 12, 4, 4, 1)
+	assert 0 < cost["us_per_step"] * cost["steps"] <= 1e6 * cost["cpu_s"] # stepping is a part of the run
+	printed = capsys.readouterr().out
+	assert "+25.0 %" in printed and "a book" in printed
+
+
+def test_resultOfSeveralSeeds(tmp_path, monkeypatch, capsys):
+	monkeypatch.chdir(tmp_path)
+	found = measured(parsed("seed=2", "seeds=3"), [0.3, 0.4, 0.65])
+	# mean 0.45; deviations -0.15, -0.05, 0.2: sample variance (0.0225 + 0.0025 + 0.04) / 2
+	assert found["peak"].measured == pytest.approx(0.45) and found["peak"].scatter == pytest.approx(math.sqrt(0.0325))
+	assert found["peak"].error == pytest.approx(0.125)
+	result = json.loads((found.write() / "result.json").read_text())
+	assert result["quantities"][0]["scatter"] == pytest.approx(math.sqrt(0.0325)) and result["cost"]["steps"] == 2000
+	assert result["quality"]["half_rate_change"] == -0.01 and result["quality"]["unbalanced_ratio_max"] == 0.004 # the worst of three
+	assert "0.45 ± 0.18" in capsys.readouterr().out
+
+	import pandas
+	curve = pandas.read_csv("out/shear/curve.csv")
+	assert list(curve) == ["seed", "displacement_mm", "stress_MPa"] and list(curve.seed) == [2, 2, 3, 3, 4, 4]
+	assert list(curve.stress_MPa) == [0, 0.3, 0, 0.4, 0, 0.65]
+
+
+def test_whatIsNotANumberBecomesNull(tmp_path, monkeypatch):
+	monkeypatch.chdir(tmp_path)
+	found = measured(parsed("seeds=2"), [0.4, math.nan])
+	text = (found.write() / "result.json").read_text()
+	peak = json.loads(text, parse_constant=pytest.fail)["quantities"][0]
+	assert (peak["measured"], peak["scatter"], peak["error"], peak["expected"]) == (None, None, None, 0.4)
+	assert results.jsonable({"a": np.int32(3), "b": [np.inf, np.bool_(True)], "c": np.array([1.5])}) == {"a": 3, "b": [None, True], "c": [1.5]}
+
+
+def test_runsMustAgree():
+	found = results.Results(parsed("seeds=2"))
+	for expected in (1, 2):
+		with found.run(1) as run:
+			run.add("peak", "MPa", 1, expected)
+			with pytest.raises(ValueError, match="added once"):
+				run.add("peak", "MPa", 2)
+	with pytest.raises(ValueError, match="one unit, expected value"):
+		found.quantities
+
+
+# ---- geometry, ParaView
+
+
+def test_contactLinesCoverTheirSegment():
+	model = column()
+	lines = export.contactLines(model, model.reference)
+	# joint 0-1: y = 1 mm, from x = 3 to 0; joint 1-2: y = 2 mm, from x = 3 to 2
+	assert lines == pytest.approx(1e-3 * np.array([[(3, 1), (1.5, 1)], [(0, 1), (1.5, 1)], [(3, 2), (2.5, 2)], [(2, 2), (2.5, 2)]]))
+	moved = export.contactLines(model, model.position)
+	assert moved - lines == pytest.approx(np.repeat([(0.5e-6, 1e-6), (1e-6, 2e-6)], 4, axis=0).reshape(4, 2, 2)) # midway between the hosts
+
+
+def test_outlinesWithHoles():
+	model = SimpleNamespace(firstEdge=[0, 7, 10], edgeNodes=np.array([(0, 1), (5, 4), (1, 2), (2, 3), (4, 6), (3, 0), (6, 5), (7, 8), (8, 9), (9, 7)]))
+	cyclic = lambda ring: tuple(np.roll(ring, -int(np.argmin(ring))))
+	assert [sorted(map(cyclic, rings)) for rings in export.blockOutlines(model)] == [[(0, 1, 2, 3), (4, 6, 5)], [(7, 8, 9)]]
+
+
+def readBack(path):
+	vtk = pytest.importorskip("vtkmodules.vtkIOXML")
+	from vtkmodules.util.numpy_support import vtk_to_numpy
+	reader = vtk.vtkXMLUnstructuredGridReader()
+	reader.SetFileName(str(path))
+	reader.Update()
+	grid = reader.GetOutput()
+	arrays = lambda data: {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
+	return grid, arrays(grid.GetPointData()), arrays(grid.GetCellData())
+
+
+def test_exportReadsBack(tmp_path):
+	model = column()
+	blocks = export.BlocksExport(tmp_path / "out")
+	for time in (0, 0.1):
+		blocks.write(model, time)
+		for name in ("blocks", "joints"): # valid after every write, with relative paths
+			steps = ElementTree.parse(tmp_path / "out" / f"{name}.pvd").getroot().findall("Collection/DataSet")
+			assert float(steps[-1].get("timestep")) == time
+			assert all((tmp_path / "out" / step.get("file")).exists() for step in steps)
+			ElementTree.parse(tmp_path / "out" / steps[-1].get("file"))
+	assert len(steps) == 2
+
+	grid, points, cells = readBack(tmp_path / "out" / "blocks_0001.vtu")
+	assert grid.GetNumberOfCells() == 5 and grid.GetCellType(0) == 5 and grid.GetCellType(4) == 7 # the platen is a polygon
+	assert grid.GetPoint(4) == pytest.approx((1e-6, 1e-3 + 2e-6, 0))
+	assert [grid.GetCell(3).GetPointId(i) for i in range(3)] == [4, 6, 7]
+	assert points["displacement"][3] == pytest.approx([0, 0, 0]) and points["displacement"][5] == pytest.approx([1e-6, 2e-6, 0])
+	assert points["velocity"][0] == pytest.approx([0.1, 0.2, 0])
+	assert list(cells["block"]) == [0, 0, 1, 1, 2] and list(cells["material"]) == [0, 0, 1, 1, 2]
+	assert cells["stress"][:4] == pytest.approx(model.zoneStress())
+	assert grid.GetCellData().GetArray("stress").GetComponentName(2) == "sxy"
+	# Mohr's circle of (1, 2, 3): centre 1.5, radius sqrt(0.25 + 9)
+	assert cells["principal"][:2] == pytest.approx(np.array([(5, 1), (1.5 + math.sqrt(9.25), 1.5 - math.sqrt(9.25))]))
+	assert grid.GetFieldData().GetAbstractArray("materialLabels").GetValue(2) == "platen"
+
+	grid, _, cells = readBack(tmp_path / "out" / "joints_0001.vtu")
+	assert grid.GetNumberOfCells() == 4 and grid.GetCellType(0) == 3
+	assert grid.GetCell(1).GetBounds()[:4] == pytest.approx((0.5e-6, 1.5e-3 + 0.5e-6, 1.001e-3, 1.001e-3))
+	for name in ("Opening", "Slip", "Sigma", "Tau", "Status"):
+		assert list(cells[name.lower()]) == list(getattr(model, "point" + name))
+	assert cells["blocks"].tolist() == [[0, 1], [0, 1], [1, 2], [1, 2]]
+
+
+def test_exportBeginsAnew(tmp_path):
+	pytest.importorskip("vtkmodules.vtkIOXML")
+	for steps in (3, 1):
+		blocks = export.BlocksExport(tmp_path)
+		for step in range(steps):
+			blocks.write(column(), step)
+	assert sorted(path.name for path in tmp_path.iterdir()) == ["blocks.pvd", "blocks_0000.vtu", "joints.pvd", "joints_0000.vtu"]
+
+
+# ---- pictures
+
+
+def test_chainsJoinWhatMeets():
+	points = np.array([(0, 0), (1, 0), (2, 0), (3, 0), (2, 5)])
+	lines = points[[(0, 1), (2, 1), (2, 3), (2, 4)]] # a fork at point 2, which no chain passes
+	chains = pictures._chains(lines.astype(float), lines)
+	assert sorted(len(chain) for chain in chains) == [2, 2, 4] and sum(len(chain) for chain in chains) == 8
+	long = max(chains, key=len)[:, 0]
+	assert list(long) in ([0, 1, 1, 2], [2, 1, 1, 0])
+	ring = points[[(0, 1), (1, 4), (4, 0)]]
+	assert [len(chain) for chain in pictures._chains(ring.astype(float), ring)] == [6]
+
+
+@pytest.mark.parametrize("number, down", [(1, 1), (1.99, 1), (2, 2), (76, 50), (500, 500), (0.0049, 0.002), (99999, 50000)])
+def test_roundNumbers(number, down):
+	assert pictures._roundDown(number) == pytest.approx(down)
+
+
+def test_magnificationShowsDisplacements():
+	# a specimen of 1 m: 98 % of the displacements, 1 mm, may become 20 mm; an outlier does not count
+	assert pictures._visible(1, np.array([(0, 1e-3)] * 999 + [(0, 5)])) == 20
+	assert pictures._visible(1, np.zeros((9, 2))) == 1 and pictures._visible(1, np.ones((9, 2))) == 1
+
+
+def test_picturesAreDrawn(tmp_path):
+	pytest.importorskip("matplotlib")
+	import pandas
+	curves = pandas.DataFrame(dict(seed=[1, 1, 1, 2, 2, 2], u=[0, 1, 2] * 2, stress=[0, 3, 1, 0, 4, 1.]))
+	references = [pictures.Reference("line", 3.5), pictures.Reference("band", (3, 4)), pictures.Reference("curve", [0, 3], [0, 1])]
+	drawn = [
+	        pictures.drawCurve(tmp_path / "curve.png", curves, "u", "stress", references=references),
+	        pictures.drawCurve(tmp_path / "one.png", curves[:3], "u", "stress", labels=("u [m]", "stress [Pa]")),
+	        pictures.drawCracks(tmp_path / "cracks.png", column()),
+	        pictures.drawCracks(tmp_path / "part.png", column(), magnification=10, window=(0, 0, 2e-3, 1e-3)),
+	]
+	model = column()
+	model.pointStatus[:] = 0
+	drawn.append(pictures.drawCracks(tmp_path / "none.png", model))
+	assert all(path.read_bytes().startswith(b"\x89PNG") and path.stat().st_size > 5000 for path in drawn)
+
+
+def test_nothingHeavyIsImportedEarly():
+	"""A scenario that does not draw does not pay for matplotlib, vtk and pandas (0.5 to 1 s each)."""
+	code = f"""if True:
+		import sys, types
+		package = sys.modules["yadeblocks"] = types.ModuleType("yadeblocks")
+		package.__path__ = [{str(package)!r}]
+		from yadeblocks import scenario, results, pictures, export, progress
+		print([name for name in ("matplotlib", "vtkmodules", "vtk", "pandas", "scipy") if name in sys.modules])"""
+	assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"
+
+
+# ---- progress
+
+
+class Clock:
+	now = 0.
+
+	def monotonic(self):
+		return self.now
+
+
+def test_progressSpeaksEveryTenSeconds(monkeypatch):
+	clock, stream, reports = Clock(), io.StringIO(), []
+	monkeypatch.setattr(progress, "time", clock)
+	with progress.Progress(1000, lambda: reports.append(1) or "u 1 mm", label="seed 1", stream=stream) as shown:
+		for step in range(0, 900, 100): # 2 s per 100 steps
+			shown(step)
+			clock.now += 2
+	assert stream.getvalue() == "seed 1   50 %  step 500  u 1 mm  0:10 left\n" and len(reports) == 1
+
+
+def test_progressOnATerminal(monkeypatch):
+	clock, stream = Clock(), io.StringIO()
+	stream.isatty = lambda: True
+	monkeypatch.setattr(progress, "time", clock)
+	with progress.Progress(10, stream=stream) as shown:
+		shown(0)
+		clock.now = 3600
+		shown(5)
+	assert stream.getvalue() == "\r 50 %  step 5  1:00:00 left\x1b[K" + "\r\x1b[K"
+
+
+def test_loadingLine():
+	assert progress.loadingLine(1.5e-5, 3.2e5, column()) == "u 0.0150 mm  stress 0.320 MPa  broken 2"
