@@ -52,20 +52,20 @@ area, duration = length * thickness, stroke / velocity
 
 
 def build(seed):
-	"""The couplet in the scene; the model and the measured sqrt(mean area) of its cells [m]."""
+	"""The couplet in the scene."""
 	O.reset()
 	O.materials.append(BlockMat(label='unit', **brick))
 	O.materials.append(BlockMat(label='mortar', **mortar))
 	low, high = brickHeight, brickHeight + mortarHeight
 	model = BlockModel(thickness=thickness, planeStress=p.plane == 'stress')
-	cells = model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=p.size, sizeMeaning=p.sizeMeaning, lloyd=p.lloyd, seed=seed, mergeFraction=p.merge)
+	model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=p.size, sizeMeaning=p.sizeMeaning, lloyd=p.lloyd, seed=seed, mergeFraction=p.merge)
 	model.addRegion(rectangle(0, 0, length, low), 'unit', zoneSize=p.brickZone)
 	model.addRegion(rectangle(0, high, length, high + brickHeight), 'unit', zoneSize=p.brickZone)
 	model.bond()
 	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
 	model.drive('top', nodesWhere(model, lambda x, y: y > high + brickHeight - 1e-9), 'y', velocity=velocity, rampTime=0.05 * duration)
 	model.insert()
-	return model, cells['meanSqrtArea']
+	return model
 
 
 def pull(model, steps, progressLabel):
@@ -97,8 +97,9 @@ def pull(model, steps, progressLabel):
 	return np.array(history).T
 
 
-def seriesStiffness(s):
-	"""Stiffness across the layer per area [Pa/m], for cells of this sqrt(mean area) [m]."""
+def seriesStiffness():
+	"""Stiffness across the layer per area [Pa/m]."""
+	s = p.size * (1.61 if p.sizeMeaning == 'edge' else 1) # hexagon-like cells
 	modulus = mortar['young'] / (1 - mortar['poisson']**2 if p.plane == 'strain' else 1)
 	kn = unitJoint['kn']
 	return 1 / (mortarHeight / modulus + mortarHeight / (0.92 * kn * s) + 1 / kn)
@@ -109,7 +110,7 @@ def seriesStiffness(s):
 results = Results(p)
 for seed in p.seedList:
 	with results.run(seed) as run:
-		model, s = build(seed)
+		model = build(seed)
 		if seed == p.seed and p.vtk: export = BlocksExport(p.folder); export.write(model, O.time)
 		with run.stepping():
 			displacement, stress, broken, unbalanced = pull(model, p.steps, 'seed %d' % seed)
@@ -120,7 +121,7 @@ for seed in p.seedList:
 
 		run.add('peak_tensile_stress', 'MPa', stress[peak] / 1e6, expectedPeak, source)
 		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
-		run.add('joint_stiffness', 'N/mm3', np.polyfit(displacement[elastic], stress[elastic], 1)[0] / 1e9, seriesStiffness(p.size if p.sizeMeaning == 'sqrtArea' else s) / 1e9, 'series of mortar and joints')
+		run.add('joint_stiffness', 'N/mm3', np.polyfit(displacement[elastic], stress[elastic], 1)[0] / 1e9, seriesStiffness() / 1e9, 'series of mortar and joints')
 		run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
 		run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, broken=broken)
 		run.model(model, steps=O.iter)
@@ -129,7 +130,7 @@ for seed in p.seedList:
 		if p.vtk: export.write(model, O.time)
 		pictures.drawCracks(p.folder / 'cracks.png', model, title='Couplet in tension, %s, seed %d' % (p.case, seed))
 	if p.halfRate:
-		slow = pull(build(seed)[0], 2 * p.steps, 'seed %d, half rate' % seed)[1].max()
+		slow = pull(build(seed), 2 * p.steps, 'seed %d, half rate' % seed)[1].max()
 		run.quality(half_rate_change=slow / stress[peak] - 1)
 
 results.write()

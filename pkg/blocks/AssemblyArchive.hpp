@@ -1,6 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
-#include <blocks/kernel/BlockAssembly.hpp>
+#include <blocks/kernel/Energy.hpp>
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/nvp.hpp>
 #include <boost/serialization/string.hpp>
@@ -41,6 +41,16 @@ namespace serialization {
 		KEEP(name), KEEP(dofs), KEEP(target), KEEP(startTime), KEEP(rampTime), KEEP(throttle);
 		KEEP(velocity), KEEP(travelled), KEEP(force), KEEP(work), KEEP(workTurnover), KEEP(pendingWork);
 	}
+
+	template <class Archive> void serialize(Archive& ar, blocks::JointDissipation::Before& x, unsigned)
+	{
+		KEEP(opening), KEEP(slip), KEEP(sigma), KEEP(tau);
+		int status = int(x.status);
+		ar& make_nvp("status", status);
+		x.status = blocks::Joint(status);
+	}
+
+	template <class Archive> void serialize(Archive& ar, blocks::JointDissipation& x, unsigned) { KEEP(friction), KEEP(fracture), KEEP(before); }
 
 	template <class Archive> void serialize(Archive& ar, blocks::BlockAssembly& x, unsigned)
 	{

@@ -6,10 +6,16 @@ namespace yade {
 Block::~Block()       = default;
 BlockMat::~BlockMat() = default;
 
+const blocks::BlockAssembly& Block::assembly() const
+{
+	if (!model) throw std::runtime_error("Block.model is empty: blocks are made by BlockModel.insert");
+	return model->assembly;
+}
+
 py::list Block::outline() const
 {
 	py::list    list;
-	const auto& a = model->assembly;
+	const auto& a = assembly();
 	for (int e = a.firstEdge[index]; e < a.firstEdge[index + 1]; ++e)
 		list.append(Vector2r(a.position[a.edgeNodes[e][0]]));
 	return list;
@@ -18,14 +24,14 @@ py::list Block::outline() const
 Vector2r Block::force() const
 {
 	Vector2r    sum = Vector2r::Zero();
-	const auto& a   = model->assembly;
+	const auto& a   = assembly();
 	for (int n = a.firstNode[index]; n < a.firstNode[index + 1]; ++n)
 		sum += a.force[n];
 	return sum;
 }
 
-py::tuple Block::nodes() const { return py::make_tuple(model->assembly.firstNode[index], model->assembly.firstNode[index + 1]); }
-py::tuple Block::zones() const { return py::make_tuple(model->assembly.firstZone[index], model->assembly.firstZone[index + 1]); }
+py::tuple Block::nodes() const { return py::make_tuple(assembly().firstNode[index], assembly().firstNode[index + 1]); }
+py::tuple Block::zones() const { return py::make_tuple(assembly().firstZone[index], assembly().firstZone[index + 1]); }
 
 YADE_PLUGIN((Block)(BlockMat));
 

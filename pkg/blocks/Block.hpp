@@ -27,6 +27,9 @@ public:
 	// clang-format on
 	REGISTER_CLASS_INDEX(Block, Shape);
 
+	/// The model's arrays; an error for a block that was made by hand.
+	const blocks::BlockAssembly& assembly() const;
+
 	py::list  outline() const;
 	Vector2r  force() const;
 	py::tuple nodes() const;

@@ -24,11 +24,16 @@ void BlockCrackRecorder::action()
 			known.push_back(int(p.joint.status));
 		if (!fileName.empty()) std::ofstream(fileName) << "step time x y nx ny mode body1 body2 material1 material2\n";
 	}
+	while (!steps.empty() && steps.back() >= scene->iter) { // a rescued state is older than what was seen
+		points.pop_back(), modes.pop_back(), steps.pop_back(), times.pop_back(), positions.pop_back();
+	}
 	const size_t before = points.size();
 	for (size_t i = 0; i < a.points.size(); ++i) {
 		const int status = int(a.points[i].joint.status);
 		if (status == known[i]) continue;
+		const bool earlier = known[i] != 0; // statuses only grow, but for a rescue
 		known[i] = status;
+		if (earlier) continue;
 		points.push_back(int(i));
 		modes.push_back(status);
 		steps.push_back(scene->iter);
@@ -51,7 +56,7 @@ py::list BlockCrackRecorder::events() const
 {
 	py::list list;
 	if (points.empty()) return list;
-	const BlockModel& model = BlockModel::of(Omega::instance().getScene().get());
+	const BlockModel& model = *BlockModel::of(Omega::instance().getScene().get());
 	for (size_t e = 0; e < points.size(); ++e) {
 		const auto& g = model.assembly.segments[points[e] / 2];
 		py::dict    event;

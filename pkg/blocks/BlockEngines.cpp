@@ -30,7 +30,7 @@ void BlockTimeStepper::computeTimeStep(Scene* scene)
 {
 	BlockModel& model = modelOf(scene);
 	model.throwComplaint();
-	if (model.stiffnessVersion == doneVersion && scene->dt == doneDt && safety == doneSafety && quasiStatic == doneQuasiStatic) return;
+	if (model.stiffnessVersion() == doneVersion && scene->dt == doneDt && safety == doneSafety && quasiStatic == doneQuasiStatic) return;
 	blocks::require(safety > 0 && safety <= 0.95, "BlockTimeStepper.safety must lie in (0, 0.95]", safety);
 
 	const auto stiffness = blocks::nodalStiffness(model.assembly);
@@ -43,7 +43,7 @@ void BlockTimeStepper::computeTimeStep(Scene* scene)
 		model.assembly.inertia = model.assembly.mass;
 		model.assembly.updateMobility();
 	}
-	doneVersion     = model.stiffnessVersion;
+	doneVersion     = model.stiffnessVersion();
 	doneDt          = scene->dt;
 	doneSafety      = safety;
 	doneQuasiStatic = quasiStatic;
@@ -59,23 +59,27 @@ void BlockForces::action()
 	blocks::gatherForces(a, threads);
 
 	if (!scene->trackEnergy) return;
-	if (!dissipation.running()) {
-		dissipation.start(a);
-		dissipation.friction = friction, dissipation.fracture = fracture;
-	} else dissipation.book(a);
-	scene->energy->set(friction = dissipation.friction, "blockFriction", frictionId);
-	scene->energy->set(fracture = dissipation.fracture, "blockFracture", fractureId);
+	if (modelOf.changed) frictionId = fractureId = -1;
+	if (dissipation.before.size() != a.points.size()) dissipation.start(a);
+	else dissipation.book(a);
+	scene->energy->set(dissipation.friction, "blockFriction", frictionId);
+	scene->energy->set(dissipation.fracture, "blockFracture", fractureId);
 }
 
 void BlockIntegrator::postLoad(BlockIntegrator&)
 {
-	if (damping == "local") law.kind = blocks::Damping::Kind::local;
-	else if (damping == "adaptive") law.kind = blocks::Damping::Kind::adaptive;
-	else if (damping == "none") law.kind = blocks::Damping::Kind::none;
-	else throw std::invalid_argument("BlockIntegrator.damping must be 'local', 'adaptive' or 'none', got '" + damping + "'");
-	blocks::require(alpha >= 0 && alpha < 1, "BlockIntegrator.alpha must lie in [0, 1)", alpha);
-	blocks::require(watchPeriod >= 0, "BlockIntegrator.watchPeriod must not be negative", watchPeriod);
-	law.alpha      = alpha;
+	const Settings wanted { damping, alpha, watchPeriod };
+	damping = accepted.damping, alpha = accepted.alpha, watchPeriod = accepted.watchPeriod; // what is refused must not stay
+	if (wanted.damping == "local") law.kind = blocks::Damping::Kind::local;
+	else if (wanted.damping == "adaptive") law.kind = blocks::Damping::Kind::adaptive;
+	else if (wanted.damping == "none") law.kind = blocks::Damping::Kind::none;
+	else throw std::invalid_argument("BlockIntegrator.damping must be 'local', 'adaptive' or 'none', got '" + wanted.damping + "'");
+	blocks::require(wanted.alpha >= 0 && wanted.alpha < 1, "BlockIntegrator.alpha must lie in [0, 1)", wanted.alpha);
+	blocks::require(wanted.watchPeriod >= 0, "BlockIntegrator.watchPeriod must not be negative", wanted.watchPeriod);
+	accepted       = wanted;
+	damping        = wanted.damping;
+	law.alpha = alpha = wanted.alpha;
+	watchPeriod    = wanted.watchPeriod;
 	checkedVersion = 0;
 }
 
@@ -92,7 +96,7 @@ void BlockIntegrator::checkStep(BlockModel& model)
 	                "O.dt as a fraction of the stable time step must not exceed " + blocks::shown(limit) + " with damping='" + damping
 	                        + "' (smaller O.dt or BlockTimeStepper.safety)",
 	                share);
-	checkedVersion = model.stiffnessVersion;
+	checkedVersion = model.stiffnessVersion();
 	checkedDt      = scene->dt;
 }
 
@@ -100,8 +104,12 @@ void BlockIntegrator::action()
 {
 	BlockModel& model = modelOf(scene);
 	model.throwComplaint();
-	if (model.stiffnessVersion != checkedVersion || scene->dt != checkedDt) checkStep(model);
-	if (watchPeriod > 0 && scene->iter % watchPeriod == 0) watchStability(model);
+	if (modelOf.changed) {
+		watch     = {};
+		kineticId = zonesId = jointsId = dampingId = workId = -1;
+	}
+	if (model.stiffnessVersion() != checkedVersion || scene->dt != checkedDt) checkStep(model);
+	if (watchPeriod > 0 && (scene->iter % watchPeriod == 0 || !watch.started())) watchStability(model);
 
 	blocks::BlockAssembly& a       = model.assembly;
 	const bool             account = scene->trackEnergy;
@@ -120,8 +128,10 @@ void BlockIntegrator::action()
 		pending = work.dampingAfter;
 	}
 	for (int i = 0; i < a.blockCount(); ++i) {
-		const blocks::Vec2 centroid                            = a.centroid(i);
-		(*scene->bodies)[model.firstBody + i]->state->pos = Vector3r(centroid.x(), centroid.y(), 0);
+		const auto& body = (*scene->bodies)[model.firstBody + i];
+		if (!body) throw std::runtime_error("body " + std::to_string(model.firstBody + i) + " was erased, but blocks cannot leave their model");
+		const blocks::Vec2 centroid = a.centroid(i);
+		body->state->pos            = Vector3r(centroid.x(), centroid.y(), 0);
 	}
 }
 

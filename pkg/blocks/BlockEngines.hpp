@@ -9,18 +9,22 @@
 
 namespace yade {
 
-/// The scene's model, looked up once per scene.
+/// The scene's model; engines outlive scenes and are given to new ones, so each step asks again.
 class ModelOfScene {
 public:
+	/// Whether the model is another one than in the last step.
+	bool changed = false;
+
 	BlockModel& operator()(const Scene* scene)
 	{
-		if (scene != seen || !model) model = &BlockModel::of(scene), seen = scene;
+		const auto& found = BlockModel::of(scene);
+		changed           = found != model;
+		if (changed) model = found;
 		return *model;
 	}
 
 private:
-	const Scene* seen  = nullptr;
-	BlockModel*  model = nullptr;
+	shared_ptr<BlockModel> model; // held, so that no other one can get its address
 };
 
 /// Threads worth starting for so many zones.
@@ -64,15 +68,13 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS(BlockForces, GlobalEngine,
 		"Unbalanced force of every grid point: loads, joint stresses times areas, zone stresses; summed in a fixed order, so that the same scene gives the same bits on any number of threads. "
 		"With ``O.trackEnergy``, ``O.energy`` gets 'blockFriction' and 'blockFracture'.",
-		((Real, friction, 0, Attr::hidden, "Dissipated so far [J]."))
-		((Real, fracture, 0, Attr::hidden, "Set free so far [J]."))
+		((blocks::JointDissipation, dissipation, , Attr::hidden, "Accounts, kept only with O.trackEnergy."))
 	);
 	// clang-format on
 
 private:
-	ModelOfScene             modelOf;
-	blocks::JointDissipation dissipation;
-	int                      frictionId = -1, fractureId = -1;
+	ModelOfScene modelOf;
+	int          frictionId = -1, fractureId = -1;
 };
 REGISTER_SERIALIZABLE(BlockForces);
 
@@ -102,6 +104,12 @@ private:
 	void checkStep(BlockModel&);
 	void watchStability(BlockModel&);
 
+	struct Settings {
+		string damping     = "local";
+		Real   alpha       = 0.3;
+		int    watchPeriod = 100;
+	};
+	Settings               accepted;
 	ModelOfScene           modelOf;
 	blocks::Damping        law;
 	blocks::StabilityWatch watch;

@@ -10,7 +10,7 @@ Ig2_Block_Block_BlockGeom::~Ig2_Block_Block_BlockGeom() = default;
 
 bool Ig2_Block_Block_BlockGeom::go(
         const shared_ptr<Shape>& shape1,
-        const shared_ptr<Shape>& shape2,
+        const shared_ptr<Shape>&,
         const State&,
         const State&,
         const Vector3r&,
@@ -18,15 +18,7 @@ bool Ig2_Block_Block_BlockGeom::go(
         const shared_ptr<Interaction>& interaction)
 {
 	const Block* block1 = static_cast<const Block*>(shape1.get());
-	if (!interaction->geom) {
-		const Block* block2 = static_cast<const Block*>(shape2.get());
-		const int    pair   = block1->model->pairOf(block1->index, block2->index);
-		if (pair < 0) return false; // never bonded
-		auto geom         = shared_ptr<BlockGeom>(new BlockGeom);
-		geom->model       = block1->model;
-		geom->pair        = pair;
-		interaction->geom = geom;
-	}
+	if (!interaction->geom) return false; // bonded pairs have theirs from BlockModel::insert
 	blocks::BlockAssembly& a    = block1->model->assembly;
 	const blocks::Pair&    pair = a.pairs[static_cast<const BlockGeom*>(interaction->geom.get())->pair];
 	blocks::updateKinematics(a, pair.first, pair.last);
@@ -36,6 +28,7 @@ bool Ig2_Block_Block_BlockGeom::go(
 namespace {
 	template <class Value> py::list eachPoint(const BlockGeom& geom, const Value& value)
 	{
+		if (!geom.model) throw std::runtime_error("BlockGeom.model is empty: it is made by BlockModel.insert");
 		py::list    list;
 		const auto& a    = geom.model->assembly;
 		const auto& pair = a.pairs[geom.pair];
@@ -45,7 +38,11 @@ namespace {
 	}
 }
 
-py::tuple BlockGeom::points() const { return py::make_tuple(2 * model->assembly.pairs[pair].first, 2 * model->assembly.pairs[pair].last); }
+py::tuple BlockGeom::points() const
+{
+	const py::list indices = eachPoint(*this, [](const blocks::BlockAssembly&, int i) { return i; });
+	return py::make_tuple(indices[0], indices[-1] + 1);
+}
 
 py::list BlockGeom::positions() const
 {

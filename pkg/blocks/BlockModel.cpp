@@ -1,6 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include "BlockModel.hpp"
-#include "Block.hpp"
+#include "BlockGeom.hpp"
 #include <algorithm>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
@@ -12,23 +12,30 @@ namespace yade {
 
 BlockModel::~BlockModel() = default;
 
+std::atomic<long> BlockModel::lastVersion { 0 };
+
 void BlockModel::postLoad(BlockModel&)
 {
-	blocks::require(thickness > 0 && std::isfinite(thickness), "BlockModel.thickness must be positive and finite [m]", thickness);
-	const blocks::Plane plane = planeStress ? blocks::Plane::stress : blocks::Plane::strain;
-	if (assembly.blockCount() > 0 && (thickness != assembly.thickness || plane != assembly.plane))
+	const Real          wanted = thickness;
+	const blocks::Plane plane  = planeStress ? blocks::Plane::stress : blocks::Plane::strain;
+	thickness                  = assembly.thickness; // what is refused must not stay
+	planeStress                = assembly.plane == blocks::Plane::stress;
+	blocks::require(wanted > 0 && std::isfinite(wanted), "BlockModel.thickness must be positive and finite [m]", wanted);
+	if (assembly.blockCount() > 0 && (wanted != assembly.thickness || plane != assembly.plane))
 		throw std::invalid_argument("BlockModel.thickness and BlockModel.planeStress must be set before the first block is added");
-	assembly.thickness = thickness;
-	assembly.plane     = plane;
-	assembly.strain    = smallStrain ? blocks::Strain::small : blocks::Strain::large;
-	++stiffnessVersion;
+	assembly.thickness = thickness = wanted;
+	assembly.plane                 = plane;
+	planeStress                    = plane == blocks::Plane::stress;
+	assembly.strain                = smallStrain ? blocks::Strain::small : blocks::Strain::large;
+	stiffnessChanged();
 }
 
-BlockModel& BlockModel::of(const Scene* scene)
+const shared_ptr<BlockModel>& BlockModel::of(const Scene* scene)
 {
 	for (const auto& body : *scene->bodies)
 		if (body && body->shape)
-			if (const auto* block = dynamic_cast<const Block*>(body->shape.get())) return *block->model;
+			if (const auto* block = dynamic_cast<const Block*>(body->shape.get()))
+				if (block->model) return block->model;
 	throw std::runtime_error("no blocks in the scene: build a BlockModel and call its insert() before the first step");
 }
 
@@ -113,7 +120,7 @@ void BlockModel::setJoint(int pair, const blocks::JointParams& params, bool bond
 	assembly.joints[pair] = params;
 	for (int i = 2 * assembly.pairs[pair].first; i < 2 * assembly.pairs[pair].last; ++i)
 		assembly.points[i].joint.status = bonded ? blocks::Joint::intact : blocks::Joint::unbonded;
-	++stiffnessVersion;
+	stiffnessChanged();
 }
 
 void BlockModel::insert()
@@ -144,9 +151,16 @@ void BlockModel::insert()
 		if (i == 0) firstBody = id;
 		if (id != firstBody + i) throw std::runtime_error("BlockModel.insert: body ids are not consecutive; insert blocks before erasing bodies");
 	}
-	for (const blocks::Pair& pair : assembly.pairs)
-		scene->interactions->insert(shared_ptr<Interaction>(new Interaction(firstBody + pair.block[0], firstBody + pair.block[1])));
-	++stiffnessVersion;
+	for (size_t pair = 0; pair < assembly.pairs.size(); ++pair) {
+		const auto& block       = assembly.pairs[pair].block;
+		auto        interaction = shared_ptr<Interaction>(new Interaction(firstBody + block[0], firstBody + block[1]));
+		auto        geom        = shared_ptr<BlockGeom>(new BlockGeom);
+		geom->model             = self;
+		geom->pair              = int(pair);
+		interaction->geom       = geom; // O.save forgets interactions that have neither geom nor phys
+		scene->interactions->insert(interaction);
+	}
+	stiffnessChanged();
 }
 
 blocks::MotionGroup& BlockModel::group(const std::string& name)

@@ -20,16 +20,15 @@ struct BlockModelPython : py::def_visitor<BlockModelPython> {
 /// Owner of the scene's one assembly: builds it, shows it to Python, is saved with it.
 class BlockModel : public Serializable {
 public:
-	/// Grows whenever something changed on which masses or the time step depend.
-	std::atomic<long> stiffnessVersion { 1 };
-	/// Time step as a fraction of the stable one, as BlockTimeStepper has set it; 0 if it has not.
-	Real safety = 0;
+	/// A number that no model had before, whenever something changed on which masses or the time step depend.
+	long stiffnessVersion() const { return version; }
+	void stiffnessChanged() { version = ++lastVersion; }
 
 	virtual ~BlockModel();
 	void postLoad(BlockModel&);
 
 	/// The scene's model, or an error that says how one gets there.
-	static BlockModel& of(const Scene*);
+	static const shared_ptr<BlockModel>& of(const Scene*);
 
 	/// Index into assembly.pairs of two blocks, or -1.
 	int pairOf(int block1, int block2) const;
@@ -75,6 +74,9 @@ public:
 
 private:
 	std::vector<blocks::Polygon> regions;
+
+	static std::atomic<long> lastVersion;
+	std::atomic<long>        version { ++lastVersion };
 
 	std::mutex  complaintMutex;
 	std::string complaint;

@@ -141,7 +141,7 @@ namespace {
 		for (const MotionGroup& other : model.assembly.groups)
 			if (other.name == g.name) throw std::invalid_argument("there is a motion group \"" + g.name + "\" already");
 		model.assembly.addGroup(std::move(g));
-		++model.stiffnessVersion;
+		model.stiffnessChanged();
 	}
 
 	void drive(BlockModel& model, const string& name, const py::object& nodes, const string& axes, Real velocity, Real rampTime, Real startTime)
@@ -165,7 +165,7 @@ namespace {
 		MotionGroup& g = model.group(name);
 		model.assembly.groups.erase(model.assembly.groups.begin() + (&g - model.assembly.groups.data()));
 		model.assembly.updateMobility();
-		++model.stiffnessVersion;
+		model.stiffnessChanged();
 	}
 
 	void setTarget(BlockModel& model, const string& name, Real target)
@@ -202,16 +202,28 @@ namespace {
 
 	// ---- arrays
 
-	/// `columns` numbers of each item, from `offset` bytes within it: a numpy view that keeps the model alive.
-	template <class Number, class Item> py::object view(const py::object& self, std::vector<Item>& items, int columns, size_t offset = 0)
+	enum class Use { state, topology }; ///< scripts may write the one but not the other
+
+	void startNumpy()
 	{
 		static const bool ready = (np::initialize(), true);
 		(void)ready;
+	}
+
+	/// `columns` numbers of each item, from `offset` bytes within it: a numpy view that keeps the model alive. A copy as long
+	/// as the model still grows, which moves its memory.
+	template <class Number, class Item> py::object view(const py::object& self, std::vector<Item>& items, int columns, Use use, size_t offset = 0)
+	{
+		startNumpy();
 		static Number nothing {};
 		char*         data  = items.empty() ? reinterpret_cast<char*>(&nothing) : reinterpret_cast<char*>(items.data()) + offset;
 		py::tuple     shape = columns == 1 ? py::make_tuple(items.size()) : py::make_tuple(items.size(), columns);
 		py::tuple     steps = columns == 1 ? py::make_tuple(sizeof(Item)) : py::make_tuple(sizeof(Item), sizeof(Number));
-		return np::from_data(data, np::dtype::get_builtin<Number>(), shape, steps, self);
+		py::object    array = np::from_data(data, np::dtype::get_builtin<Number>(), shape, steps, self);
+		const bool    grows = py::extract<BlockModel&>(self)().firstBody < 0;
+		if (grows) array = array.attr("copy")();
+		if (grows || use == Use::topology) array.attr("setflags")(false);
+		return array;
 	}
 
 	BlockAssembly& arrays(const py::object& self) { return py::extract<BlockModel&>(self)().assembly; }
@@ -219,8 +231,7 @@ namespace {
 	py::object zoneStress(const py::object& self)
 	{
 		BlockAssembly&     a = arrays(self);
-		static const bool  ready = (np::initialize(), true);
-		(void)ready;
+		startNumpy();
 		np::ndarray out  = np::empty(py::make_tuple(a.zoneCount(), 3), np::dtype::get_builtin<Real>());
 		Real*       data = reinterpret_cast<Real*>(out.get_data());
 		for (int block = 0; block < a.blockCount(); ++block)
@@ -234,8 +245,7 @@ namespace {
 	py::object contactPositions(const py::object& self)
 	{
 		BlockAssembly&     a = arrays(self);
-		static const bool  ready = (np::initialize(), true);
-		(void)ready;
+		startNumpy();
 		np::ndarray out  = np::empty(py::make_tuple(a.points.size(), 2), np::dtype::get_builtin<Real>());
 		Real*       data = reinterpret_cast<Real*>(out.get_data());
 		for (size_t i = 0; i < a.points.size(); ++i) {
@@ -245,10 +255,10 @@ namespace {
 		return out;
 	}
 
-#define VIEW(name, Number, member, columns, doc) \
-	.add_property(#name, py::make_function(+[](py::object self) -> py::object { return view<Number>(self, arrays(self).member, columns); }), doc)
-#define VIEW_FIELD(name, Number, member, Item, field, columns, doc) \
-	.add_property(#name, py::make_function(+[](py::object self) -> py::object { return view<Number>(self, arrays(self).member, columns, offsetof(blocks::Item, field)); }), doc)
+#define VIEW(use, name, Number, member, columns, doc) \
+	.add_property(#name, py::make_function(+[](py::object self) -> py::object { return view<Number>(self, arrays(self).member, columns, Use::use); }), doc)
+#define VIEW_FIELD(use, name, Number, member, Item, field, columns, doc) \
+	.add_property(#name, py::make_function(+[](py::object self) -> py::object { return view<Number>(self, arrays(self).member, columns, Use::use, offsetof(blocks::Item, field)); }), doc)
 
 	int  blockCount(const BlockModel& m) { return m.assembly.blockCount(); }
 	int  nodeCount(const BlockModel& m) { return m.assembly.nodeCount(); }
@@ -300,30 +310,30 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 	        .add_property("nodeCount", &nodeCount, "Number of grid points.")
 	        .add_property("zoneCount", &zoneCount, "Number of zones.")
 	        .add_property("contactCount", &contactCount, "Number of contact points.")
-	                VIEW(position, Real, position, 2, "Grid points' positions, shape (grid points, 2) [m].")
-	                VIEW(reference, Real, reference, 2, "Grid points' positions without stress, shape (grid points, 2) [m].")
-	                VIEW(velocity, Real, velocity, 2, "Grid points' velocities half a step ago, shape (grid points, 2) [m/s].")
-	                VIEW(force, Real, force, 2, "Grid points' unbalanced forces, shape (grid points, 2) [N].")
-	                VIEW(mass, Real, mass, 1, "Grid points' true masses [kg].")
-	                VIEW(inertia, Real, inertia, 1, "Grid points' masses as they resist motion, scaled if BlockTimeStepper scales them [kg].")
-	                VIEW(zoneNodes, int, zoneNodes, 3, "Grid points of every zone, counter-clockwise, shape (zones, 3).")
-	                VIEW(zoneVolume, Real, zoneVolume, 1, "Volumes of the zones [m3].")
-	                VIEW(firstNode, int, firstNode, 1, "First grid point of every block, and their number at the end.")
-	                VIEW(firstZone, int, firstZone, 1, "First zone of every block, and their number at the end.")
-	                VIEW(firstEdge, int, firstEdge, 1, "First boundary edge of every block, and their number at the end.")
-	                VIEW(blockMaterial, int, blockMaterial, 1, "Material of every block, an index into materialLabels.")
-	                VIEW(edgeNodes, int, edgeNodes, 2, "Grid points of the boundary edges, material on the left, shape (edges, 2).")
-	                VIEW_FIELD(segmentNodes, int, segments, Segment, node, 4, "Edge a1, b1 of the first and a2, b2 of the second block of every segment, shape (segments, 4).")
-	                VIEW_FIELD(segmentBlocks, int, segments, Segment, block, 2, "The two blocks of every segment, shape (segments, 2).")
-	                VIEW_FIELD(segmentParameters, Real, segments, Segment, s1, 4, "Where the two contact points are along the first edge, then along the second (0 at a, 1 at b), shape (segments, 4).")
-	                VIEW_FIELD(segmentArea, Real, segments, Segment, area, 1, "Area of each of the two contact points of every segment [m2].")
-	                VIEW_FIELD(normal, Real, frames, SegmentFrame, nx, 2, "Unit normals of the segments, out of the first block, shape (segments, 2).")
-	                VIEW_FIELD(pointOpening, Real, points, ContactPoint, opening, 1, "Openings of the contact points, two a segment [m].")
-	                VIEW_FIELD(pointSlip, Real, points, ContactPoint, slip, 1, "Slips of the contact points [m].")
-	                VIEW_FIELD(pointSigma, Real, points, ContactPoint, sigma, 1, "Normal stresses of the contact points, tension positive [Pa].")
-	                VIEW_FIELD(pointTau, Real, points, ContactPoint, tau, 1, "Shear stresses of the contact points [Pa].")
+	                VIEW(state, position, Real, position, 2, "Grid points' positions, shape (grid points, 2) [m].")
+	                VIEW(topology, reference, Real, reference, 2, "Grid points' positions without stress, shape (grid points, 2) [m].")
+	                VIEW(state, velocity, Real, velocity, 2, "Grid points' velocities half a step ago, shape (grid points, 2) [m/s].")
+	                VIEW(state, force, Real, force, 2, "Grid points' unbalanced forces, shape (grid points, 2) [N].")
+	                VIEW(topology, mass, Real, mass, 1, "Grid points' true masses [kg].")
+	                VIEW(state, inertia, Real, inertia, 1, "Grid points' masses as they resist motion, scaled if BlockTimeStepper scales them [kg].")
+	                VIEW(topology, zoneNodes, int, zoneNodes, 3, "Grid points of every zone, counter-clockwise, shape (zones, 3).")
+	                VIEW(topology, zoneVolume, Real, zoneVolume, 1, "Volumes of the zones [m3].")
+	                VIEW(topology, firstNode, int, firstNode, 1, "First grid point of every block, and their number at the end.")
+	                VIEW(topology, firstZone, int, firstZone, 1, "First zone of every block, and their number at the end.")
+	                VIEW(topology, firstEdge, int, firstEdge, 1, "First boundary edge of every block, and their number at the end.")
+	                VIEW(topology, blockMaterial, int, blockMaterial, 1, "Material of every block, an index into materialLabels.")
+	                VIEW(topology, edgeNodes, int, edgeNodes, 2, "Grid points of the boundary edges, material on the left, shape (edges, 2).")
+	                VIEW_FIELD(topology, segmentNodes, int, segments, Segment, node, 4, "Edge a1, b1 of the first and a2, b2 of the second block of every segment, shape (segments, 4).")
+	                VIEW_FIELD(topology, segmentBlocks, int, segments, Segment, block, 2, "The two blocks of every segment, shape (segments, 2).")
+	                VIEW_FIELD(topology, segmentParameters, Real, segments, Segment, s1, 4, "Where the two contact points are along the first edge, then along the second (0 at a, 1 at b), shape (segments, 4).")
+	                VIEW_FIELD(topology, segmentArea, Real, segments, Segment, area, 1, "Area of each of the two contact points of every segment [m2].")
+	                VIEW_FIELD(topology, normal, Real, frames, SegmentFrame, nx, 2, "Unit normals of the segments, out of the first block, shape (segments, 2).")
+	                VIEW_FIELD(state, pointOpening, Real, points, ContactPoint, opening, 1, "Openings of the contact points, two a segment [m].")
+	                VIEW_FIELD(state, pointSlip, Real, points, ContactPoint, slip, 1, "Slips of the contact points [m].")
+	                VIEW_FIELD(state, pointSigma, Real, points, ContactPoint, sigma, 1, "Normal stresses of the contact points, tension positive [Pa].")
+	                VIEW_FIELD(state, pointTau, Real, points, ContactPoint, tau, 1, "Shear stresses of the contact points [Pa].")
 	                .add_property("pointStatus", py::make_function(+[](py::object self) -> py::object {
-		                return view<std::uint8_t>(self, arrays(self).points, 1, offsetof(blocks::ContactPoint, joint) + offsetof(blocks::JointState, status));
+		                return view<std::uint8_t>(self, arrays(self).points, 1, Use::topology, offsetof(blocks::ContactPoint, joint) + offsetof(blocks::JointState, status));
 	                }), "0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded.");
 }
 
@@ -336,7 +346,7 @@ namespace {
 		changed.*member             = value;
 		blocks::validate(changed);
 		phys.joint() = changed;
-		++phys.model->stiffnessVersion;
+		phys.model->stiffnessChanged();
 	}
 	template <Real blocks::JointParams::*member> Real getAngle(const JointPhys& phys) { return std::atan(phys.joint().*member); }
 	template <Real blocks::JointParams::*member> void setAngle(JointPhys& phys, Real angle)
@@ -348,6 +358,7 @@ namespace {
 	template <class Value> py::list ofPoints(const JointPhys& phys, const Value& value)
 	{
 		py::list    list;
+		phys.joint();
 		const auto& a = phys.model->assembly;
 		for (int i = 2 * a.pairs[phys.pair].first; i < 2 * a.pairs[phys.pair].last; ++i)
 			list.append(value(a.points[i]));

@@ -49,7 +49,11 @@ void Ip2_BlockMat_BlockMat_JointPhys::go(const shared_ptr<Material>& material1, 
 	const string &a = material1->label, &b = material2->label;
 	for (const auto& joint : jointList) {
 		if (!((joint->material1 == a && joint->material2 == b) || (joint->material1 == b && joint->material2 == a))) continue;
-		geom->model->setJoint(geom->pair, joint->params(), joint->bonded);
+		try {
+			geom->model->setJoint(geom->pair, joint->params(), joint->bonded);
+		} catch (const std::exception& error) { // changed after it was checked
+			geom->model->complain(error.what());
+		}
 		return;
 	}
 	geom->model->complain("Ip2_BlockMat_BlockMat_JointPhys.joints has no JointMat for the pair of materials \"" + std::min(a, b) + "\" and \"" + std::max(a, b) + "\", whose blocks touch");

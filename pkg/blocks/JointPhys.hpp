@@ -44,7 +44,11 @@ class JointPhys : public IPhys {
 public:
 	virtual ~JointPhys();
 
-	blocks::JointParams& joint() const { return model->assembly.joints[pair]; }
+	blocks::JointParams& joint() const
+	{
+		if (!model) throw std::runtime_error("JointPhys.model is empty: joints are made by Ip2_BlockMat_BlockMat_JointPhys");
+		return model->assembly.joints[pair];
+	}
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(JointPhys, IPhys,

@@ -4,13 +4,13 @@
 #include <core/Dispatching.hpp>
 #include <core/PartialEngine.hpp>
 #include <core/TimeStepper.hpp>
+#include <cstddef>
 #include <pkg/common/ElastMat.hpp>
 #include <pkg/common/NormShearPhys.hpp>
 #include <pkg/common/PeriodicEngines.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/DemXDofGeom.hpp>
 #include <pkg/dem/FrictPhys.hpp>
-#include <cstddef>
 
 #define CHECK_MEMBER(r, Class, pair)                                                                                                                           \
 	static_assert(offsetof(Class, BOOST_PP_TUPLE_ELEM(2, 0, pair)) == BOOST_PP_TUPLE_ELEM(2, 1, pair), "layout of YADE's " #Class);

@@ -1,7 +1,7 @@
 /// Part of every plugin: tells YADE of the plugin's classes when the plugin is loaded after YADE has started.
 #include <core/Omega.hpp>
-#include <lib/factory/ClassFactory.hpp>
 #include <dlfcn.h>
+#include <lib/factory/ClassFactory.hpp>
 
 /// Which YADE the plugin was built for; the Python side looks for this text before it loads the file.
 extern "C" __attribute__((used)) const char yadePluginBuiltFor[] = "plugin built for YADE " YADE_VERSION;
@@ -15,9 +15,8 @@ extern "C" void yadeRegisterNewClasses()
 		if (!Omega::instance().getDynlibsDescriptor().count(name)) names.push_back(name);
 
 	// Omega::buildDynlibDatabase(names), which YADE exports but declares private
-	using BuildDynlibDatabase = void (*)(Omega*, const std::vector<std::string>&);
-	const char* const symbol
-	        = "_ZN4yade5Omega19buildDynlibDatabaseERKSt6vectorINSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEESaIS7_EE";
-	const auto buildDynlibDatabase = reinterpret_cast<BuildDynlibDatabase>(dlsym(RTLD_DEFAULT, symbol));
+	using BuildDynlibDatabase             = void (*)(Omega*, const std::vector<std::string>&);
+	const char* const symbol              = "_ZN4yade5Omega19buildDynlibDatabaseERKSt6vectorINSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEESaIS7_EE";
+	const auto        buildDynlibDatabase = reinterpret_cast<BuildDynlibDatabase>(dlsym(RTLD_DEFAULT, symbol));
 	if (buildDynlibDatabase && !names.empty()) buildDynlibDatabase(&Omega::instance(), names);
 }

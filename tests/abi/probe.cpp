@@ -1,15 +1,17 @@
 /// A Python module that looks at YADE's objects through the declarations in pkg/yade-api.
 #include "toys.hpp"
+#include <algorithm>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/DemXDofGeom.hpp>
-#include <algorithm>
 #include <typeinfo>
 
 using namespace yade;
 
 #define PROBE_MEMBER(r, pointer, member) seen[BOOST_PP_STRINGIZE(member)] = pointer->member;
 #define PROBE(Class, members)                                                                                                                                  \
-	if (const auto* c = dynamic_cast<const Class*>(&object)) { BOOST_PP_SEQ_FOR_EACH(PROBE_MEMBER, c, members) }
+	if (const auto* c = dynamic_cast<const Class*>(&object)) {                                                                                             \
+		BOOST_PP_SEQ_FOR_EACH(PROBE_MEMBER, c, members)                                                                                                \
+	}
 
 /// Every attribute that the classes of `object` declare.
 static py::dict attributes(const Serializable& object)
@@ -44,7 +46,7 @@ static py::dict sceneValues()
 	const Scene* s = &scene();
 	py::dict     seen;
 	BOOST_PP_SEQ_FOR_EACH(
-	        PROBE_MEMBER, s, (dt)(iter)(subStepping)(subStep)(time)(speed)(stopAtIter)(stopAtTime)(isPeriodic)(trackEnergy)(selectedBody)(subdomain)(cell))
+		PROBE_MEMBER, s, (dt)(iter)(subStepping)(subStep)(time)(speed)(stopAtIter)(stopAtTime)(isPeriodic)(trackEnergy)(selectedBody)(subdomain)(cell))
 	py::list tags, engines, materials;
 	for (const auto& tag : s->tags)
 		tags.append(tag);

@@ -24,13 +24,13 @@ void Bo1_ToyShape_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bo
 }
 
 bool Ig2_ToyShape_ToyShape_ToyGeom::go(
-        const shared_ptr<Shape>& shape1,
-        const shared_ptr<Shape>&,
-        const State& state1,
-        const State& state2,
-        const Vector3r&,
-        const bool&,
-        const shared_ptr<Interaction>& interaction)
+	const shared_ptr<Shape>& shape1,
+	const shared_ptr<Shape>&,
+	const State& state1,
+	const State& state2,
+	const Vector3r&,
+	const bool&,
+	const shared_ptr<Interaction>& interaction)
 {
 	if (!interaction->geom) interaction->geom = shared_ptr<IGeom>(new ToyGeom);
 	static_cast<ToyGeom&>(*interaction->geom).gap = (state2.pos - state1.pos).norm() - static_cast<ToyShape&>(*shape1).edge;
@@ -67,7 +67,7 @@ void ToyEngine::action()
 	LOG_INFO("counted " << bodies);
 }
 
-YADE_PLUGIN((ToyShape)(ToyState)(ToyMat)(ToyGeom)(ToyPhys)(ToyHolder)(Bo1_ToyShape_Aabb)(Ig2_ToyShape_ToyShape_ToyGeom)(Ip2_ToyMat_ToyMat_ToyPhys)(
-        Law2_ToyGeom_ToyPhys_Toy)(ToyEngine)(ToyPartialEngine)(ToyPeriodicEngine)(ToyTimeStepper));
+YADE_PLUGIN((
+	ToyShape)(ToyState)(ToyMat)(ToyGeom)(ToyPhys)(ToyHolder)(Bo1_ToyShape_Aabb)(Ig2_ToyShape_ToyShape_ToyGeom)(Ip2_ToyMat_ToyMat_ToyPhys)(Law2_ToyGeom_ToyPhys_Toy)(ToyEngine)(ToyPartialEngine)(ToyPeriodicEngine)(ToyTimeStepper));
 
 } // namespace yade

@@ -241,6 +241,8 @@ TEST(ContactKinematics, ForcesAreTheGradientOfTheSprings)
 	addGrid(a, { 0.3, 0.5 }, 1.3, 0.4, 3, 1);
 	addGrid(a, { 1, -0.1 }, 1, 0.6, 1, 2);
 	bondAll(a, elasticJoint(70, 30));
+	for (ContactPoint& p : a.points) // as if bonded across a wide, skew gap
+		p.bondOpening = 0.03, p.bondSlip = -0.05;
 	disturb(a, 0.12);
 	rotateAbout(a, { 1, 1 }, 0.8, { 0.05, -0.1 }, a.firstNode[1], a.firstNode[2]);
 	rotateAbout(a, { 1, 1 }, 0.6, { 0, 0 });
@@ -268,6 +270,8 @@ TEST(ContactKinematics, ForceAndMomentVanishHoweverFarApart)
 		addGrid(a, { 0, 0 }, 1, 0.5, 2, 1);
 		addGrid(a, { 0.3, 0.5 }, 1.3, 0.4, 3, 1);
 		bondAll(a, elasticJoint(70, 30));
+		for (ContactPoint& p : a.points)
+			p.bondOpening = 0.03, p.bondSlip = -0.05;
 		disturb(a, 0.1);
 		rotateAbout(a, { 0.5, 0.5 }, angle, { 1.1, 2.0 }, a.firstNode[1]);
 		const auto f = jointForces(a);

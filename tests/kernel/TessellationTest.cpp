@@ -546,6 +546,51 @@ TEST(Tessellation, cutCellsBecomeSeveral)
 	EXPECT_NEAR(areas[2], 4.0, 10 * eps);
 }
 
+// Of a cell in pieces the largest counts for Lloyd's iteration. Pieces and centroids by hand, the arms of a lopsided U.
+TEST(Tessellation, lloydTakesTheLargestPiece)
+{
+	for (bool mirrored : { false, true }) {
+		const auto flip = [&](Ring ring) {
+			if (!mirrored) return ring;
+			for (Vec2& p : ring)
+				p.x() = 4 - p.x();
+			return reversed(ring);
+		};
+		const Polygon u = solid(flip({ { 0, 0 }, { 4, 0 }, { 4, 3 }, { 2, 3 }, { 2, 1 }, { 1, 1 }, { 1, 3 }, { 0, 3 } }));
+		auto          o = sized(1, 1);
+		o.seeds         = flip({ { 0.5, 2.5 }, { 0.5, 0.5 } }); // the first owns both arms above y = 1.5
+		const Cells one = tessellate(u, o);
+		// [2,4] x [1.5,3], and below [0,4] x [0,1] with [0,1] x [1,1.5] and [2,4] x [1,1.5]: (8 + 0.25 + 3)/5.5, (2 + 0.625 + 1.25)/5.5
+		o.lloyd         = 0;
+		o.seeds         = flip({ { 3, 2.25 }, { 11.25 / 5.5, 3.875 / 5.5 } });
+		const Cells two = tessellate(u, o);
+		ASSERT_EQ(one.cells.size(), two.cells.size());
+		for (size_t i = 0; i < one.cells.size(); ++i) // seeds differ by rounding, ~10 eps; areas react with factors of order 1
+			EXPECT_NEAR(signedArea(ringOf(one, i)), signedArea(ringOf(two, i)), 1e-12);
+	}
+}
+
+// Near the tip of a wedge every edge across is short, and has to stay: its ends lie on different walls.
+TEST(Tessellation, edgesAcrossAThinRegionStay)
+{
+	auto o = sized(0.7, 0);
+	o.seeds = { { 0.3, 0.01 }, { 0.6, 0.01 }, { 1.1, 0.01 }, { 2, 0.05 }, { 3, 0.1 } };
+	const Polygon wedge = solid({ { 0, 0 }, { 4, 0 }, { 4, 0.3 } });
+	o.mergeFraction     = 0.1; // of 0.7; the first edge across is 0.034 long
+	const Cells cells   = tessellate(wedge, o);
+	expectTiling(wedge, cells, 0.7, "wedge");
+	EXPECT_EQ(cells.cells.size(), 5u);
+}
+
+// Found by the random test below: a Voronoi vertex on the reflex corner (1, 2), so that a cell passes it by a neck of width zero.
+TEST(Tessellation, necksOfNoWidthAreDivided)
+{
+	const Polygon region = solid({ { 6, 1 }, { 1, 2 }, { 0, 6 }, { -4, 4 }, { -3, 0 }, { -2, -2 }, { -2, -5 }, { 1, -2 }, { 7, -2 } });
+	auto          o      = sized(1, 0);
+	o.seeds = { { -2.5, -0.5 }, { -1.5, 2.5 }, { -0.5, -2.5 }, { -0.5, -1.5 }, { -0.5, 1.5 }, { -0.5, 2.5 }, { 0.5, 3.5 }, { 1.5, -0.5 }, { 2.5, -1.5 }, { 3.5, 0.5 }, { 4.5, -0.5 }, { 4.5, 0.5 } };
+	expectTiling(region, tessellate(region, o), 1, "neck");
+}
+
 TEST(Tessellation, cellsAroundHolesAreCut)
 {
 	const Ring small = reversed(rectangle(0.4, 0.3, 0.5, 0.45)), other = reversed(rectangle(0.6, 0.35, 0.7, 0.4)), third = reversed(rectangle(0.42, 0.6, 0.55, 0.7));

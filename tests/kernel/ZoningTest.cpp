@@ -115,9 +115,9 @@ TEST(FanZones, joinTheCentroidToEachEdge)
 	EXPECT_EQ(zones.triangles.size(), 5u);
 
 	// A trapezium's centroid from the textbook: height h = 1, parallel sides 3 (below) and 1: h (b + 2a) / 3 (a + b) above the longer.
-	const Zones trapezium = fanZones({ { 0, 0 }, { 3, 0 }, { 1, 1 }, { 0, 1 } });
-	EXPECT_NEAR(trapezium.points[4].y(), (3 + 2.0) / 12, 4 * eps);
-	EXPECT_NEAR(trapezium.points[4].x(), (9 + 3 + 1) / 12.0, 8 * eps); // (b^2 + ab + a^2) / 3 (a + b)
+	const Zones trapezium = fanZones({ { 1, 2 }, { 4, 2 }, { 2, 3 }, { 1, 3 } });
+	EXPECT_NEAR(trapezium.points[4].y(), 2 + (3 + 2.0) / 12, 16 * eps);
+	EXPECT_NEAR(trapezium.points[4].x(), 1 + (9 + 3 + 1) / 12.0, 16 * eps); // (b^2 + ab + a^2) / 3 (a + b)
 }
 
 TEST(FanZones, findAPointThatSeesAll)
@@ -249,6 +249,21 @@ TEST(DelaunayZones, areGraded)
 	EXPECT_GT(high / nHigh, 20 * low / nLow); // (0.15 / 0.01)^2 = 225 between the ends of the grading
 	EXPECT_GT(degrees(quality(zones).minAngle), 10);
 	EXPECT_LT(zones.triangles.size(), 1500u); // uniform zones of 0.01 would be 23000
+}
+
+// Long outline edges that must be kept stand in the way of circumcentres; the zones get their size all the same.
+TEST(DelaunayZones, haveTheirSizeWithinLongEdgesToo)
+{
+	for (Real width : { 0.3, 0.5, 1.0 }) {
+		const Ring  ring  = rectangle(0, 0, width, 1);
+		const Zones zones = delaunayZones(ring, 0.1, Outline::kept);
+		expectMesh(ring, zones, "long edges");
+		EXPECT_EQ(zones.rings[0].size(), 4u);
+		// Equilateral zones of 0.1 would be width/0.00433 in number; those along the four edges are necessarily larger.
+		EXPECT_GT(Real(zones.triangles.size()), 0.5 * width / 0.00433 - 40);
+		// The zone on an edge of length 1 is about half a zone size high, not less by much: (sqrt(3)/2) 1/0.05 = 17.
+		EXPECT_LT(quality(zones).worstAspect, 20);
+	}
 }
 
 TEST(DelaunayZones, sameInputSameBits)

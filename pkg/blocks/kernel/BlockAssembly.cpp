@@ -143,6 +143,7 @@ void BlockAssembly::rebuild()
 {
 	rebuildZones(0);
 	rebuildJoints();
+	rebuildContacts(*this);
 	mobility.resize(nodeCount());
 	updateMobility();
 }

@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
+#include "FreeContacts.hpp"
 #include "JointLaw.hpp"
 #include "Motion.hpp"
 #include "Zone.hpp"
@@ -80,6 +81,9 @@ struct BlockAssembly {
 	std::vector<std::array<Vec2, 4>> segmentForce; ///< on a1, b1, a2, b2 [N]
 	std::vector<int>                 firstSide { 0 }; ///< block -> its range in sides
 	std::vector<int>                 sides;           ///< 2 segment + side, in the order in which a block gathers them
+
+	// ---- blocks that touch without being bonded
+	FreeContacts contacts;
 
 	// ---- boundary conditions
 	std::vector<MotionGroup> groups;

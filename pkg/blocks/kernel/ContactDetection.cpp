@@ -92,7 +92,7 @@ std::vector<Segment> detectSegments(const BlockAssembly& a, Real tolerance)
 		g.area *= a.thickness;
 		found.push_back({ e1->index, e2->index, g });
 	});
-	std::sort(found.begin(), found.end(), [](const Found& x, const Found& y) { // by block pair, then along the first block's outline
+	std::sort(found.begin(), found.end(), [](const Found& x, const Found& y) { // by block pair, then edge by edge
 		return std::tie(x.segment.block, x.edge1, x.edge2) < std::tie(y.segment.block, y.edge1, y.edge2);
 	});
 	std::vector<Segment> segments;

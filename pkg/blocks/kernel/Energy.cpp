@@ -34,7 +34,7 @@ Real jointEnergy(const BlockAssembly& a)
 {
 	Real sum = 0;
 	forEachPoint(a, [&](const JointParams& joint, const ContactPoint& p, const Segment& g, int) { sum += g.area * storedEnergy(joint, p.sigma, p.tau); });
-	return sum;
+	return sum + (a.contacts.order.empty() ? 0 : contactEnergy(a));
 }
 
 Real kineticEnergy(const BlockAssembly& a)
@@ -66,6 +66,7 @@ void JointDissipation::start(const BlockAssembly& a)
 	before.clear();
 	for (const ContactPoint& p : a.points)
 		before.push_back({ p.opening, p.slip, p.sigma, p.tau, p.joint.status });
+	contactsBefore = contactFriction(a);
 }
 
 void JointDissipation::book(const BlockAssembly& a)
@@ -77,6 +78,9 @@ void JointDissipation::book(const BlockAssembly& a)
 		(b.status == p.joint.status ? friction : fracture) += g.area * (work - stored);
 		b = { p.opening, p.slip, p.sigma, p.tau, p.joint.status };
 	});
+	const Real contacts = contactFriction(a);
+	friction += contacts - contactsBefore;
+	contactsBefore = contacts;
 }
 
 Real unbalancedRatio(const BlockAssembly& a, Real floor)
@@ -90,6 +94,9 @@ Real unbalancedRatio(const BlockAssembly& a, Real floor)
 		const SegmentFrame& f = a.frames[i / 2];
 		contact += a.segments[i / 2].area * (std::abs(p.sigma * f.nx - p.tau * f.ny) + std::abs(p.sigma * f.ny + p.tau * f.nx));
 	}
+	for (int i : a.contacts.order)
+		for (const EdgePair& e : a.contacts.all[i].edges)
+			if (e.active()) contact += (e.force[0] + e.force[1]).lpNorm<1>();
 	const Real scale = 2 * std::max(contact, floor);
 	return scale > 0 ? unbalanced / scale : 0;
 }

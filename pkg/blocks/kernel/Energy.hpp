@@ -12,24 +12,20 @@ Real loadWork(const BlockAssembly&);      ///< of the dead loads since the refer
 Real groupWork(const BlockAssembly&);     ///< of driven and pushed degrees of freedom
 
 /// Dissipation at the contact points, by the trapezoidal rule from step to step. Exists only where somebody keeps accounts.
-class JointDissipation {
-public:
+struct JointDissipation {
 	/// Takes the present state as the start.
 	void start(const BlockAssembly&);
 	/// After a law: books what the joints took in and do not hold. To be called every step.
 	void book(const BlockAssembly&);
 
-	bool running() const { return !before.empty(); }
-
 	Real friction = 0; ///< of broken joints; dilation's work against the pressure is taken off [J]
 	Real fracture = 0; ///< set free in the step in which a contact point broke [J]
 
-private:
 	struct Before {
 		Real  opening, slip, sigma, tau;
 		Joint status;
 	};
-	std::vector<Before> before;
+	std::vector<Before> before; ///< of each contact point, at the last step
 };
 
 /// Sum of |F| over free degrees of freedom by twice the sum of |F| over contact points, the latter at least `floor` [N].

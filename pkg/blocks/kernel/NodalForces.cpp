@@ -1,6 +1,8 @@
 // yade-blocks, GPL-2.0-or-later
 #include "NodalForces.hpp"
 #include "ContactKinematics.hpp"
+#include <algorithm>
+#include <cassert>
 
 namespace blocks {
 namespace {
@@ -60,7 +62,7 @@ namespace {
 		}
 	}
 
-	/// Blocks [first, last): loads, then joints, then zones; runs of blocks of one material share their batches.
+	/// Blocks [first, last): loads, then joints, then free contacts, then zones; runs of blocks of one material share their batches.
 	void gatherBlocks(BlockAssembly& a, int first, int last)
 	{
 		Vec2*     force = a.force.data();
@@ -76,6 +78,9 @@ namespace {
 			force[segments[segment].node[corner]] += forces[segment][corner];
 			force[segments[segment].node[corner + 1]] += forces[segment][corner + 1];
 		}
+		if (!a.contacts.order.empty())
+			for (int block = first; block < last; ++block)
+				gatherContactForces(a, block, force);
 		for (int run = first, next; run < last; run = next) {
 			const int material = a.blockMaterial[run];
 			for (next = run + 1; next < last && a.blockMaterial[next] == material; ++next) { }
@@ -107,6 +112,7 @@ void computeJointForces(BlockAssembly& a, [[maybe_unused]] int threads)
 
 void gatherForces(BlockAssembly& a, int threads)
 {
+	assert(threads >= 1);
 	if (threads == 1) return gatherBlocks(a, 0, a.blockCount());
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (int part = 0; part < threads; ++part) { // blocks with about equal numbers of zones

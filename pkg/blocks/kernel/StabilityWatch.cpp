@@ -13,9 +13,9 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 	for (const MotionGroup& g : a.groups)
 		turnover += g.workTurnover;
 	const Real loads = loadWork(a), energy = zoneEnergy(a) + jointEnergy(a) + kineticEnergy(a);
-	if (!started) {
+	if (!begun) {
 		baseline = energy - groupWork(a) - loads;
-		started  = true;
+		begun    = true;
 	}
 	const Real excess = energy - groupWork(a) - loads - baseline;
 	const Real scale  = std::abs(baseline) + turnover + std::abs(loads);

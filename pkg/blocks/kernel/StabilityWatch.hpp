@@ -26,6 +26,7 @@ public:
 	/// Puts the last good state back; the step it belongs to, or -1 if there was none.
 	long restore(BlockAssembly&) const;
 	Real goodTime() const { return lastGood.time; }
+	bool started() const { return begun; }
 
 private:
 	struct State {
@@ -36,7 +37,7 @@ private:
 		std::vector<MotionGroup>  groups;
 	};
 	State lastGood;
-	bool  started    = false;
+	bool  begun      = false;
 	Real  baseline   = 0; ///< energy at the first look less the work done by then [J]
 	Real  lastExcess = 0;
 };

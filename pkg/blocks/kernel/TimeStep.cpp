@@ -35,6 +35,7 @@ std::vector<Real> nodalStiffness(const BlockAssembly& a)
 		for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z)
 			addZone(a, z, moduli, stiffness);
 	}
+	const std::vector<Real> ofZones = a.contacts.order.empty() ? std::vector<Real>() : stiffness;
 	for (size_t pair = 0; pair < a.pairs.size(); ++pair) {
 		const JointParams& joint = a.joints[pair];
 		const Real         k     = std::max(joint.kn, joint.ks) + joint.kn * joint.tanDilation;
@@ -46,6 +47,11 @@ std::vector<Real> nodalStiffness(const BlockAssembly& a)
 					stiffness[g.node[c]] += 2 * k * g.area * weight[c];
 			}
 		}
+	}
+	if (!ofZones.empty()) { // a stretch of an edge is bonded or free, not both, and the contacts' share is the larger one
+		const std::vector<Real> contacts = contactStiffness(a);
+		for (int n = 0; n < a.nodeCount(); ++n)
+			stiffness[n] = std::max(stiffness[n], ofZones[n] + contacts[n]);
 	}
 	return stiffness;
 }

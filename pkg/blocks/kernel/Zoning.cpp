@@ -164,7 +164,7 @@ private:
 	std::vector<std::pair<Vec2, Real>> fine;
 };
 
-/// Adds circumcentres of too large zones, the largest first, as long as they lie in the block and leave the outline alone.
+/// Adds points inside too large zones, the largest first, as long as they lie in the block and leave the outline alone.
 class Refinement {
 public:
 	Refinement(Mesh& mesh, Zones& zones, const Sizing& sizing) : mesh(mesh), zones(zones), sizing(sizing)
@@ -178,7 +178,7 @@ public:
 		while (!queue.empty()) {
 			const auto [size, nodes, f] = queue.top();
 			queue.pop();
-			if (sorted(nodesOf(f)) == nodes) insertCentreOf(f);
+			if (sorted(nodesOf(f)) == nodes) divide(f);
 		}
 	}
 
@@ -212,19 +212,28 @@ private:
 		if (excess > 1 && std::isfinite(excess)) queue.push({ excess, sorted(nodesOf(f)), f });
 	}
 
-	void insertCentreOf(Mesh::Face_handle f)
+	/// The circumcentre, or, where a long edge of the outline is in its way, the centroid of a zone that is too large.
+	void divide(Mesh::Face_handle f)
 	{
-		const auto              centre = mesh.circumcenter(f);
+		const auto corner   = [&](int i) { return fromK(f->vertex(i)->point()); };
+		const Vec2 centroid = (corner(0) + corner(1) + corner(2)) / 3;
+		const Real wanted   = std::sqrt(3.0) / 4 * std::pow(sizing.at(centroid), 2); // the area of an equilateral zone
+		const bool tooLarge = twiceArea(corner(0), corner(1), corner(2)) / 2 > 1.5 * wanted;
+		if (!insert(mesh.circumcenter(f), f) && tooLarge) insert(toK(centroid), f);
+	}
+
+	bool insert(const K::Point_2& p, Mesh::Face_handle near)
+	{
 		Mesh::Locate_type       type;
 		int                     i;
-		const Mesh::Face_handle at = mesh.locate(centre, type, i, f);
-		if (type == Mesh::VERTEX || type == Mesh::OUTSIDE_CONVEX_HULL || type == Mesh::OUTSIDE_AFFINE_HULL || !at->info()) return;
-		if (type == Mesh::EDGE && at->is_constrained(i)) return;
-		if (sizing.encroaches(fromK(centre))) return;
+		const Mesh::Face_handle at = mesh.locate(p, type, i, near);
+		if (type == Mesh::VERTEX || type == Mesh::OUTSIDE_CONVEX_HULL || type == Mesh::OUTSIDE_AFFINE_HULL || !at->info()) return false;
+		if (type == Mesh::EDGE && at->is_constrained(i)) return false;
+		if (sizing.encroaches(fromK(p))) return false;
 
-		const auto node = mesh.insert(centre, type, at, i);
+		const auto node = mesh.insert(p, type, at, i);
 		node->info()    = int(zones.points.size());
-		zones.points.push_back(fromK(centre));
+		zones.points.push_back(fromK(p));
 		auto star = mesh.incident_faces(node), end = star;
 		do
 			star->info() = true; // no outline within the star: all of it is inside
@@ -232,6 +241,7 @@ private:
 		do
 			consider(star);
 		while (++star != end);
+		return true;
 	}
 };
 

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <lib/base/Math.hpp>
-#include <lib/multimethods/Indexable.hpp>
-#include <lib/serialization/Serializable.hpp>
 #include <core/Bound.hpp>
 #include <core/Material.hpp>
 #include <core/Shape.hpp>
 #include <core/State.hpp>
+#include <lib/base/Math.hpp>
+#include <lib/multimethods/Indexable.hpp>
+#include <lib/serialization/Serializable.hpp>
 #include <map>
 
 namespace yade {

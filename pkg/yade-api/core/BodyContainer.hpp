@@ -1,8 +1,8 @@
 #pragma once
 
-#include <lib/serialization/Serializable.hpp>
-#include <core/Body.hpp>
 #include <boost/iterator/filter_iterator.hpp>
+#include <core/Body.hpp>
+#include <lib/serialization/Serializable.hpp>
 #include <mutex>
 
 namespace yade {
@@ -12,16 +12,16 @@ class BodyContainer : public Serializable {
 	friend class InteractionContainer;
 
 public:
-	ContainerT      body;
-	bool            dirty;
-	bool            checkedByCollider;
-	vector<int>     insertedBodies;
-	vector<int>     erasedBodies;
-	vector<int>     realBodies;
-	bool            useRedirection;
-	bool            enableRedirection;
-	vector<int>     subdomainBodies;
-	std::mutex      drawloopmutex;
+	ContainerT  body;
+	bool        dirty;
+	bool        checkedByCollider;
+	vector<int> insertedBodies;
+	vector<int> erasedBodies;
+	vector<int> realBodies;
+	bool        useRedirection;
+	bool        enableRedirection;
+	vector<int> subdomainBodies;
+	std::mutex  drawloopmutex;
 
 	/// Iteration skips bodies that were erased; size() and [] count them.
 	struct isNonEmptySharedPtr {

@@ -1,7 +1,6 @@
 /// The four families of functors.
 #pragma once
 
-#include <lib/base/Math.hpp>
 #include <core/Aabb.hpp>
 #include <core/Dispatcher.hpp>
 #include <core/Functor.hpp>
@@ -11,6 +10,7 @@
 #include <core/Scene.hpp>
 #include <core/Shape.hpp>
 #include <core/State.hpp>
+#include <lib/base/Math.hpp>
 
 namespace yade {
 
@@ -23,17 +23,17 @@ public:
 YADE_API_SAVED_IN_LIBRARY(BoundFunctor)
 
 class IGeomFunctor : public Functor2D<
-                             Shape,
-                             Shape,
-                             bool,
-                             boost::mpl::vector<
-                                     const shared_ptr<Shape>&,
-                                     const shared_ptr<Shape>&,
-                                     const State&,
-                                     const State&,
-                                     const Vector3r&,
-                                     const bool&,
-                                     const shared_ptr<Interaction>&>> {
+			     Shape,
+			     Shape,
+			     bool,
+			     boost::mpl::vector<
+				     const shared_ptr<Shape>&,
+				     const shared_ptr<Shape>&,
+				     const State&,
+				     const State&,
+				     const Vector3r&,
+				     const bool&,
+				     const shared_ptr<Interaction>&>> {
 public:
 	IGeomFunctor() = default;
 	virtual ~IGeomFunctor();
@@ -42,8 +42,11 @@ public:
 };
 YADE_API_SAVED_IN_LIBRARY(IGeomFunctor)
 
-class IPhysFunctor
-        : public Functor2D<Material, Material, void, boost::mpl::vector<const shared_ptr<Material>&, const shared_ptr<Material>&, const shared_ptr<Interaction>&>> {
+class IPhysFunctor : public Functor2D<
+			     Material,
+			     Material,
+			     void,
+			     boost::mpl::vector<const shared_ptr<Material>&, const shared_ptr<Material>&, const shared_ptr<Interaction>&>> {
 public:
 	IPhysFunctor() = default;
 	virtual ~IPhysFunctor();

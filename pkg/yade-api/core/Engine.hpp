@@ -1,9 +1,9 @@
 #pragma once
 
-#include <lib/base/Logging.hpp>
-#include <lib/serialization/Serializable.hpp>
 #include <core/Omega.hpp>
 #include <core/Timing.hpp>
+#include <lib/base/Logging.hpp>
+#include <lib/serialization/Serializable.hpp>
 
 namespace yade {
 

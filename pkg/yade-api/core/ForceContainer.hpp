@@ -1,7 +1,7 @@
 #pragma once
 
-#include <lib/base/Math.hpp>
 #include <core/Body.hpp>
+#include <lib/base/Math.hpp>
 #include <mutex>
 
 namespace yade {

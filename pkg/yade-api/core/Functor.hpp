@@ -1,8 +1,8 @@
 #pragma once
 
+#include <core/Timing.hpp>
 #include <lib/multimethods/FunctorWrapper.hpp>
 #include <lib/serialization/Serializable.hpp>
-#include <core/Timing.hpp>
 
 namespace yade {
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <core/Dispatcher.hpp>
 #include <lib/base/Math.hpp>
 #include <lib/multimethods/Indexable.hpp>
 #include <lib/serialization/Serializable.hpp>
-#include <core/Dispatcher.hpp>
 
 namespace yade {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <lib/serialization/Serializable.hpp>
 #include <core/Body.hpp>
 #include <core/IGeom.hpp>
 #include <core/IPhys.hpp>
+#include <lib/serialization/Serializable.hpp>
 
 namespace yade {
 

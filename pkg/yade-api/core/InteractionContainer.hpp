@@ -1,8 +1,8 @@
 #pragma once
 
-#include <lib/serialization/Serializable.hpp>
 #include <core/BodyContainer.hpp>
 #include <core/Interaction.hpp>
+#include <lib/serialization/Serializable.hpp>
 #include <mutex>
 
 namespace yade {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <lib/multimethods/Indexable.hpp>
-#include <lib/serialization/Serializable.hpp>
 #include <core/Dispatcher.hpp>
 #include <core/State.hpp>
+#include <lib/multimethods/Indexable.hpp>
+#include <lib/serialization/Serializable.hpp>
 
 namespace yade {
 

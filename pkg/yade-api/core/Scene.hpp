@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/date_time/posix_time/ptime.hpp>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
 #include <core/Cell.hpp>
@@ -8,7 +9,6 @@
 #include <core/ForceContainer.hpp>
 #include <core/InteractionContainer.hpp>
 #include <core/Material.hpp>
-#include <boost/date_time/posix_time/ptime.hpp>
 
 namespace yade {
 

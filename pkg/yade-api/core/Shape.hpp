@@ -1,8 +1,8 @@
 #pragma once
 
+#include <core/Dispatcher.hpp>
 #include <lib/multimethods/Indexable.hpp>
 #include <lib/serialization/Serializable.hpp>
-#include <core/Dispatcher.hpp>
 
 namespace yade {
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <core/Dispatcher.hpp>
 #include <lib/base/Logging.hpp>
 #include <lib/multimethods/Indexable.hpp>
 #include <lib/serialization/Serializable.hpp>
-#include <core/Dispatcher.hpp>
 #include <mutex>
 
 namespace yade {

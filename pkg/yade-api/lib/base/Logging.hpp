@@ -2,8 +2,8 @@
 /// Levels by class name need boost::log in every class; here they are not offered.
 #pragma once
 
-#include <lib/base/Singleton.hpp>
 #include <iostream>
+#include <lib/base/Singleton.hpp>
 #include <sstream>
 #include <string>
 
@@ -29,7 +29,8 @@ namespace api {
 #define DECLARE_LOGGER                                                                                                                                         \
 public:                                                                                                                                                        \
 	static ::yade::api::Logger logger
-#define CREATE_LOGGER(Class) ::yade::api::Logger Class::logger { #Class }
+#define CREATE_LOGGER(Class)                                                                                                                                   \
+	::yade::api::Logger Class::logger { #Class }
 #define CREATE_CPP_LOCAL_LOGGER(name)                                                                                                                          \
 	namespace {                                                                                                                                            \
 		::yade::api::Logger logger { name };                                                                                                           \

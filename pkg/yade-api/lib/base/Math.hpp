@@ -44,8 +44,8 @@ public:
 
 	Se3() = default;
 	Se3(const Eigen::Matrix<Scalar, 3, 1>& x, const Eigen::Quaternion<Scalar>& q)
-	        : position(x)
-	        , orientation(q)
+		: position(x)
+		, orientation(q)
 	{
 	}
 };
@@ -54,8 +54,8 @@ using Se3r = Se3<Real>;
 using mask_t = int; ///< bits of Body::groupMask
 
 static_assert(
-        sizeof(Vector3r) == 24 && sizeof(Quaternionr) == 32 && sizeof(Se3r) == 56 && sizeof(Matrix3r) == 72 && alignof(Quaternionr) == 8,
-        "Eigen must be built as in YADE: compile with -DEIGEN_DONT_VECTORIZE -DEIGEN_DONT_ALIGN");
+	sizeof(Vector3r) == 24 && sizeof(Quaternionr) == 32 && sizeof(Se3r) == 56 && sizeof(Matrix3r) == 72 && alignof(Quaternionr) == 8,
+	"Eigen must be built as in YADE: compile with -DEIGEN_DONT_VECTORIZE -DEIGEN_DONT_ALIGN");
 
 } // namespace yade
 

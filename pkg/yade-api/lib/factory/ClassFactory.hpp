@@ -1,8 +1,6 @@
 /// YADE's register of classes that can be made by name, and YADE_PLUGIN, which enters a plugin's classes.
 #pragma once
 
-#include <lib/base/Math.hpp>
-#include <lib/base/Singleton.hpp>
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 #include <boost/archive/xml_iarchive.hpp>
@@ -13,6 +11,8 @@
 #include <boost/serialization/nvp.hpp>
 #include <boost/serialization/shared_ptr.hpp>
 #include <boost/serialization/vector.hpp>
+#include <lib/base/Math.hpp>
+#include <lib/base/Singleton.hpp>
 #include <list>
 #include <map>
 
@@ -50,10 +50,10 @@ namespace api {
 	template <class Class> bool makeFactorable(const char* name)
 	{
 		return ClassFactory::instance().registerFactorable(
-		        name,
-		        []() -> Factorable* { return new Class; },
-		        []() -> shared_ptr<Factorable> { return shared_ptr<Class>(new Class); },
-		        []() -> void* { return new Class; });
+			name,
+			[]() -> Factorable* { return new Class; },
+			[]() -> shared_ptr<Factorable> { return shared_ptr<Class>(new Class); },
+			[]() -> void* { return new Class; });
 	}
 
 }

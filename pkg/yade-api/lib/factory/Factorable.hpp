@@ -1,7 +1,7 @@
 #pragma once
 
-#include <lib/factory/ClassFactory.hpp>
 #include <boost/enable_shared_from_this.hpp>
+#include <lib/factory/ClassFactory.hpp>
 
 namespace yade {
 

@@ -40,7 +40,7 @@ protected:                                                                      
 public:                                                                                                                                                        \
 	static const int& getClassIndexStatic() { return modifyClassIndexStatic(); }                                                                           \
 	const int&        getClassIndex() const override { return getClassIndexStatic(); }                                                                     \
-	const int& getBaseClassIndex(int depth) const override { return depth == 1 ? Base::getClassIndex() : Base::getBaseClassIndex(depth - 1); }
+	const int&        getBaseClassIndex(int depth) const override { return depth == 1 ? Base::getClassIndex() : Base::getBaseClassIndex(depth - 1); }
 
 /// For a class in YADE's libraries: root of a family, in the order of its vtable.
 #define YADE_API_INDEXED_ROOT                                                                                                                                  \

@@ -4,10 +4,10 @@
 /// and everything else (Python properties, keyword arguments, dict(), pickling, archives) is a visitor.
 #pragma once
 
+#include <boost/python/raw_function.hpp>
 #include <lib/base/AliasNamespaces.hpp>
 #include <lib/base/Math.hpp>
 #include <lib/factory/Factorable.hpp>
-#include <boost/python/raw_function.hpp>
 
 namespace yade {
 
@@ -28,10 +28,10 @@ public:
 
 	void pyUpdateAttrs(const py::dict& values);
 
-	string       getBaseClassName(unsigned int i = 0) const override;
-	int          getBaseClassNumber() const override;
-	string       getClassName() const override;
-	virtual void pySetAttr(const string& name, const py::object& value);
+	string           getBaseClassName(unsigned int i = 0) const override;
+	int              getBaseClassNumber() const override;
+	string           getClassName() const override;
+	virtual void     pySetAttr(const string& name, const py::object& value);
 	virtual py::dict pyDict() const;
 	virtual py::dict pyDictCustom() const;
 	virtual void     callPostLoad();
@@ -61,9 +61,10 @@ namespace api {
 	template <class Value, class... Arguments> Value initial(Arguments&&... arguments) { return Value(std::forward<Arguments>(arguments)...); }
 
 	/// Python gets a reference to these, so that `state.vel[0] = 1` works; other attributes are copied.
-	template <class Value>
-	constexpr bool seenByReference = std::is_same_v<Value, Vector2i> || std::is_same_v<Value, Vector3i> || std::is_same_v<Value, Vector2r>
-	        || std::is_same_v<Value, Vector3r> || std::is_same_v<Value, Matrix3r> || std::is_same_v<Value, Quaternionr>;
+	template <class Value> constexpr bool seenByReference
+		= std::is_same_v<
+			  Value,
+			  Vector2i> || std::is_same_v<Value, Vector3i> || std::is_same_v<Value, Vector2r> || std::is_same_v<Value, Vector3r> || std::is_same_v<Value, Matrix3r> || std::is_same_v<Value, Quaternionr>;
 
 	/// Makes an attribute a property of a Python class.
 	struct ExposeAttribute {
@@ -81,14 +82,16 @@ namespace api {
 	private:
 		template <int flags, class Owner, class Value> static py::object getter(const Attribute<flags, Owner, Value>& a)
 		{
-			if constexpr (seenByReference<Value>) return py::make_getter(a.member);
+			if constexpr (seenByReference<Value>)
+				return py::make_getter(a.member);
 			else
 				return py::make_getter(a.member, py::return_value_policy<py::return_by_value>());
 		}
 
 		template <int flags, class Owner, class Value> static py::object setter(const Attribute<flags, Owner, Value>& a)
 		{
-			if constexpr (flags & Attr::readonly) return py::object();
+			if constexpr (flags & Attr::readonly)
+				return py::object();
 			else if constexpr (flags & Attr::triggerPostLoad) {
 				auto set = [member = a.member](Owner& owner, const Value& value) {
 					owner.*member = value;
@@ -146,7 +149,8 @@ namespace api {
 		shared_ptr<Class> object(new Class);
 		object->pyHandleCustomCtorArgs(positional, keywords);
 		if (py::len(positional) > 0)
-			throw std::runtime_error(object->getClassName() + " takes keyword arguments only, got " + std::to_string(py::len(positional)) + " without a keyword");
+			throw std::runtime_error(
+				object->getClassName() + " takes keyword arguments only, got " + std::to_string(py::len(positional)) + " without a keyword");
 		if (py::len(keywords) > 0) {
 			object->pyUpdateAttrs(keywords);
 			object->callPostLoad();
@@ -174,23 +178,22 @@ namespace api {
 #define YADE_API_INITIAL(tuple) BOOST_PP_TUPLE_ELEM(5, 2, tuple)
 #define YADE_API_FLAGS(tuple) (BOOST_PP_TUPLE_ELEM(5, 3, tuple) + 0)
 // YADE's user interface and manual read default and type from the docstring.
-#define YADE_API_DOC(tuple)                                                                                                                                \
-	BOOST_PP_TUPLE_ELEM(5, 4, tuple)                                                                                                                   \
+#define YADE_API_DOC(tuple)                                                                                                                                    \
+	BOOST_PP_TUPLE_ELEM(5, 4, tuple)                                                                                                                       \
 	" :ydefault:`" BOOST_PP_STRINGIZE(YADE_API_INITIAL(tuple)) "` :yattrtype:`" BOOST_PP_STRINGIZE(YADE_API_TYPE(tuple)) "`"
 
-#define YADE_API_DECLARE(r, Class, tuple)                                                                                                                  \
-	YADE_API_TYPE(tuple) YADE_API_NAME(tuple) = ::yade::api::initial<YADE_API_TYPE(tuple)>(YADE_API_INITIAL(tuple));
-#define YADE_API_VISIT(r, Class, tuple)                                                                                                                    \
-	visit(::yade::api::attribute<YADE_API_FLAGS(tuple)>(                                                                                               \
-	        BOOST_PP_STRINGIZE(YADE_API_NAME(tuple)), &Class::YADE_API_NAME(tuple), YADE_API_DOC(tuple)));
-#define YADE_API_INITIALISER(r, data, i, pair) BOOST_PP_IF(i, BOOST_PP_COMMA, :BOOST_PP_EMPTY)() BOOST_PP_TUPLE_ELEM(2, 0, pair)(BOOST_PP_TUPLE_ELEM(2, 1, pair))
+#define YADE_API_DECLARE(r, Class, tuple) YADE_API_TYPE(tuple) YADE_API_NAME(tuple) = ::yade::api::initial<YADE_API_TYPE(tuple)>(YADE_API_INITIAL(tuple));
+#define YADE_API_VISIT(r, Class, tuple)                                                                                                                        \
+	visit(::yade::api::attribute<YADE_API_FLAGS(tuple)>(BOOST_PP_STRINGIZE(YADE_API_NAME(tuple)), &Class::YADE_API_NAME(tuple), YADE_API_DOC(tuple)));
+#define YADE_API_INITIALISER(r, data, i, pair)                                                                                                                 \
+	BOOST_PP_IF(i, BOOST_PP_COMMA, : BOOST_PP_EMPTY)() BOOST_PP_TUPLE_ELEM(2, 0, pair)(BOOST_PP_TUPLE_ELEM(2, 1, pair))
 
-#define YADE_CLASS_BASE_DOC_ATTRS_INIT_CTOR_PY(Class, Base, classDoc, attributes, initialisers, constructor, members)                                           \
+#define YADE_CLASS_BASE_DOC_ATTRS_INIT_CTOR_PY(Class, Base, classDoc, attributes, initialisers, constructor, members)                                          \
 public:                                                                                                                                                        \
 	BOOST_PP_SEQ_FOR_EACH(YADE_API_DECLARE, Class, attributes)                                                                                             \
 	Class() BOOST_PP_SEQ_FOR_EACH_I(YADE_API_INITIALISER, ~, initialisers) { constructor; }                                                                \
                                                                                                                                                                \
-	template <class Visitor> static void visitAttributes([[maybe_unused]] Visitor&& visit) { BOOST_PP_SEQ_FOR_EACH(YADE_API_VISIT, Class, attributes) }     \
+	template <class Visitor> static void visitAttributes([[maybe_unused]] Visitor&& visit) { BOOST_PP_SEQ_FOR_EACH(YADE_API_VISIT, Class, attributes) }    \
                                                                                                                                                                \
 	void pySetAttr(const std::string& name, const boost::python::object& value) override                                                                   \
 	{                                                                                                                                                      \
@@ -214,9 +217,9 @@ public:                                                                         
 	void pyRegisterClass(boost::python::object scopeOfClass) override                                                                                      \
 	{                                                                                                                                                      \
 		checkPyClassRegistersItself(#Class);                                                                                                           \
-		boost::python::scope             scope(scopeOfClass);                                                                                          \
-		boost::python::docstring_options docstrings(true, true, false);                                                                                \
-		boost::python::class_<Class, boost::shared_ptr<Class>, boost::python::bases<Base>, boost::noncopyable> pythonClass(#Class, classDoc);           \
+		boost::python::scope                                                                                   scope(scopeOfClass);                    \
+		boost::python::docstring_options                                                                       docstrings(true, true, false);          \
+		boost::python::class_<Class, boost::shared_ptr<Class>, boost::python::bases<Base>, boost::noncopyable> pythonClass(#Class, classDoc);          \
 		pythonClass.def("__init__", boost::python::raw_function(::yade::api::construct<Class>, 1));                                                    \
 		visitAttributes(::yade::api::ExposeAttribute { pythonClass });                                                                                 \
 		(void)pythonClass members;                                                                                                                     \
@@ -227,17 +230,19 @@ private:                                                                        
 	template <class Archive> void serialize(Archive& archive, unsigned int)                                                                                \
 	{                                                                                                                                                      \
 		archive& boost::serialization::make_nvp(#Base, boost::serialization::base_object<Base>(*this));                                                \
-		if (Archive::is_loading::value) preLoad(*this);                                                                                                \
+		if (Archive::is_loading::value)                                                                                                                \
+			preLoad(*this);                                                                                                                        \
 		else                                                                                                                                           \
 			preSave(*this);                                                                                                                        \
 		visitAttributes(::yade::api::ArchiveAttribute<Class, Archive> { *this, archive });                                                             \
-		if (Archive::is_loading::value) postLoad(*this);                                                                                               \
+		if (Archive::is_loading::value)                                                                                                                \
+			postLoad(*this);                                                                                                                       \
 		else                                                                                                                                           \
 			postSave(*this);                                                                                                                       \
 	}                                                                                                                                                      \
 	REGISTER_CLASS_AND_BASE(Class, Base)
 
-#define YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Class, Base, doc, attributes, constructor, members)                                                                   \
+#define YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Class, Base, doc, attributes, constructor, members)                                                                  \
 	YADE_CLASS_BASE_DOC_ATTRS_INIT_CTOR_PY(Class, Base, doc, attributes, , constructor, members)
 #define YADE_CLASS_BASE_DOC_ATTRS_CTOR(Class, Base, doc, attributes, constructor)                                                                              \
 	YADE_CLASS_BASE_DOC_ATTRS_INIT_CTOR_PY(Class, Base, doc, attributes, , constructor, )
@@ -274,13 +279,15 @@ public:
 	}                                                                                                                                                      \
 	BOOST_CLASS_EXPORT_KEY(yade::Class)                                                                                                                    \
 	namespace boost {                                                                                                                                      \
-	namespace archive {                                                                                                                                    \
-		namespace detail {                                                                                                                             \
-			extern template void oserializer<xml_oarchive, yade::Class>::save_object_data(basic_oarchive&, const void*) const;                     \
-			extern template void oserializer<binary_oarchive, yade::Class>::save_object_data(basic_oarchive&, const void*) const;                  \
-			extern template void iserializer<xml_iarchive, yade::Class>::load_object_data(basic_iarchive&, void*, const unsigned int) const;       \
-			extern template void iserializer<binary_iarchive, yade::Class>::load_object_data(basic_iarchive&, void*, const unsigned int) const;    \
+		namespace archive {                                                                                                                            \
+			namespace detail {                                                                                                                     \
+				extern template void oserializer<xml_oarchive, yade::Class>::save_object_data(basic_oarchive&, const void*) const;             \
+				extern template void oserializer<binary_oarchive, yade::Class>::save_object_data(basic_oarchive&, const void*) const;          \
+				extern template void                                                                                                           \
+				iserializer<xml_iarchive, yade::Class>::load_object_data(basic_iarchive&, void*, const unsigned int) const;                    \
+				extern template void                                                                                                           \
+				iserializer<binary_iarchive, yade::Class>::load_object_data(basic_iarchive&, void*, const unsigned int) const;                 \
+			}                                                                                                                                      \
 		}                                                                                                                                              \
-	}                                                                                                                                                      \
 	}                                                                                                                                                      \
 	namespace yade {

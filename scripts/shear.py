@@ -1,0 +1,116 @@
+# yade-blocks, GPL-2.0-or-later
+"""Shear of a masonry couplet under precompression (paper, section 3.2; experiment of Van der Pluijm 1993, wire-cut bricks, 1:2:9 mortar).
+
+Two clay bricks, 200 x 50 x 50 mm, and a mortar joint of 15 mm made of Voronoi blocks of 3.5 mm. The bottom is held; the top edge is pressed
+down by sigma, staying parallel as under a stiff platen, and then moves sideways at 0.2 mm/s. Stress is the horizontal force on the
+top edge by its area, displacement the mean slip across the mortar layer.
+
+	scripts/run.sh shear [sigma=0.1e6|0.5e6|1e6] [key=value ...]        about 4 s a seed
+
+Expected: peak 0.87 + 1.01 sigma, residual 0.73 sigma (N/mm2): the experiment's cohesion, friction and residual friction.
+Size means sqrt(mean area) unless sizeMeaning=edge. halfRate=true repeats every run at half the loading rate and reports the change of the peak.
+"""
+from math import radians
+
+import numpy as np
+
+import yadeblocks
+from yade import *
+from yadeblocks import pictures, scenario
+from yadeblocks.export import BlocksExport
+from yadeblocks.progress import Progress, loadingLine
+from yadeblocks.results import Results
+from yadeblocks.specimen import Gauge, nodesWhere, rectangle
+
+# ---- parameters (SI)
+
+length, brickHeight, thickness, mortarHeight = 0.2, 0.05, 0.05, 0.015 # [m]
+brick = dict(young=16.7e9, poisson=0.2, density=1900) # Table 4
+mortar = dict(young=2.974e9, poisson=0.2, density=3250)
+joint = dict(kn=400e9, ks=200e9, frictionAngle=radians(45), frictionAngleResidual=radians(36), cohesion=3e6, tension=1.5e6) # Table 5, all joints
+velocity = 0.2e-3 # [m/s]
+
+p = scenario.parameters(
+	{**scenario.commonParameters(size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, steps=40000), 'sigma': 0.5e6, 'stroke': 0.3e-3, 'pressSteps': 3000, 'brickZone': 8e-3,
+	 'merge': 0.05, 'halfRate': False, 'vtk': True},
+	{'sigma': scenario.notNegative, 'stroke': scenario.positive, 'pressSteps': scenario.atLeastOne, 'brickZone': scenario.positive,
+	 'size': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer'),
+	 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')})
+area, low, high = length * thickness, brickHeight, brickHeight + mortarHeight
+peakExpected, residualExpected = 0.87 + 1.01 * p.sigma / 1e6, 0.73 * p.sigma / 1e6
+
+
+def build(seed, dt):
+	"""The couplet in the scene."""
+	O.reset()
+	O.materials.append(BlockMat(label='unit', **brick))
+	O.materials.append(BlockMat(label='mortar', **mortar))
+	model = BlockModel(thickness=thickness, planeStress=p.plane == 'stress')
+	model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=p.size, sizeMeaning=p.sizeMeaning, lloyd=p.lloyd, seed=seed, mergeFraction=p.merge)
+	model.addRegion(rectangle(0, 0, length, low), 'unit', zoneSize=p.brickZone)
+	model.addRegion(rectangle(0, high, length, high + brickHeight), 'unit', zoneSize=p.brickZone)
+	model.bond()
+	top, press = nodesWhere(model, lambda x, y: y > high + brickHeight - 1e-9), p.pressSteps * dt
+	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
+	model.push('press', top, 'y', force=-p.sigma * area, rampTime=0.7 * press)
+	model.drive('shear', top, 'x', velocity=velocity, startTime=press, rampTime=0.05 * p.stroke / velocity)
+	model.insert()
+	return model
+
+
+def shear(seed, steps, label):
+	"""Presses, then shears over the whole stroke. The model and the columns: displacement [m], stress [Pa], uplift [m], broken contact points, unbalanced ratio."""
+	O_dt = p.stroke / velocity / steps
+	model = build(seed, O_dt)
+	below, above = nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit')
+	slip, uplift = Gauge(model, below, above, 'x'), Gauge(model, below, above, 'y')
+	history = []
+
+	def record():
+		history.append((slip(), model.groupForce('shear') / area, uplift(), np.count_nonzero(model.pointStatus), model.unbalancedRatio(floor=1e-3 * max(p.sigma, joint['tension']) * area)))
+		progress(O.iter)
+
+	O.dt = O_dt
+	O.engines = [
+		InteractionLoop([Ig2_Block_Block_BlockGeom()],            # opening and slip
+		                [Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
+		                        JointMat(material1='mortar', material2='mortar', **joint),
+		                        JointMat(material1='unit', material2='mortar', **joint)])],
+		                [Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
+		BlockTimeStepper(),                                        # scaled masses
+		BlockForces(),                                             # zones and joints, gathered node by node
+		BlockIntegrator(damping=p.damping, alpha=p.alpha),         # motion
+		PyRunner(command='record()', iterPeriod=50)]
+	globals()['record'] = record
+	with Progress(p.pressSteps + steps, lambda: loadingLine(history[-1][0], history[-1][1], model), label=label) as progress:
+		O.run(p.pressSteps + steps, True)
+	return model, np.array(history).T
+
+
+# ---- running
+
+results = Results(p)
+for seed in p.seedList:
+	with results.run(seed) as run:
+		with run.stepping():
+			model, (displacement, stress, uplift, broken, unbalanced) = shear(seed, p.steps, 'seed %d' % seed)
+		peak = stress.argmax()
+		run.add('peak_shear_stress', 'MPa', stress[peak] / 1e6, peakExpected, 'Van der Pluijm 1993: 0.87 + 1.01 sigma')
+		run.add('residual_shear_stress', 'MPa', stress[displacement > 0.75 * displacement[-1]].mean() / 1e6, residualExpected or None, 'Van der Pluijm 1993: 0.73 sigma')
+		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
+		run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
+		run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, uplift_mm=1e3 * uplift, broken=broken)
+		run.model(model, steps=O.iter)
+		run.quality(unbalanced_ratio_max=unbalanced[len(unbalanced) // 10:].max())
+	if seed == p.seed:
+		if p.vtk: BlocksExport(p.folder).write(model, O.time)
+		pictures.drawCracks(p.folder / 'cracks.png', model, title='Couplet in shear, precompression %g N/mm², seed %d' % (p.sigma / 1e6, seed))
+	if p.halfRate:
+		slow = shear(seed, 2 * p.steps, 'seed %d, half rate' % seed)[1][1].max()
+		run.quality(half_rate_change=slow / stress[peak] - 1)
+
+results.write()
+pictures.drawCurve(p.folder / 'curve.png', results.curves, 'displacement_mm', 'stress_MPa',
+	labels=('slip across the mortar layer [mm]', 'shear stress [N/mm²]'), title='Couplet in shear, precompression %g N/mm²' % (p.sigma / 1e6),
+	references=[pictures.Reference('peak, Van der Pluijm 1993', peakExpected), pictures.Reference('residual, Van der Pluijm 1993', residualExpected)])
+scenario.waitIfBatch()
