@@ -23,5 +23,5 @@ fi
 mkdir -p build
 exec 9> build/.setup-lock
 flock 9 # two runs at once must not build at once
-[ -f build/build.ninja ] || cmake -S . -B build -G Ninja
+[ -f build/build.ninja ] || [ -f build/Makefile ] || cmake -S . -B build -G Ninja
 cmake --build build -j "$(nproc)"

@@ -80,7 +80,7 @@ def shear(seed, steps, label):
 		BlockTimeStepper(),                                        # scaled masses
 		BlockForces(),                                             # zones and joints, gathered node by node
 		BlockIntegrator(damping=p.damping, alpha=p.alpha),         # motion
-		PyRunner(command='record()', iterPeriod=50)]
+		PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
 	globals()['record'] = record
 	with Progress(p.pressSteps + steps, lambda: loadingLine(history[-1][0], history[-1][1], model), label=label) as progress:
 		O.run(p.pressSteps + steps, True)

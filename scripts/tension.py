@@ -24,7 +24,7 @@ from yade import *
 from yadeblocks import pictures, scenario
 from yadeblocks.export import BlocksExport
 from yadeblocks.progress import Progress, loadingLine
-from yadeblocks.results import Results
+from yadeblocks.results import Results, crackAreas
 from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -90,7 +90,7 @@ def pull(model, steps, progressLabel):
 		BlockTimeStepper(),                                        # scaled masses
 		BlockForces(),                                             # zones and joints, gathered node by node
 		BlockIntegrator(damping=p.damping, alpha=p.alpha),         # motion
-		PyRunner(command='record()', iterPeriod=50)]
+		PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
 	globals()['record'] = record
 	with Progress(steps, lambda: loadingLine(history[-1][0], history[-1][1], model), label=progressLabel) as progress:
 		O.run(steps, True)
@@ -123,6 +123,8 @@ for seed in p.seedList:
 		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
 		run.add('joint_stiffness', 'N/mm3', np.polyfit(displacement[elastic], stress[elastic], 1)[0] / 1e9, seriesStiffness() / 1e9, 'series of mortar and joints')
 		run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
+		cracked = crackAreas(model)
+		run.add('crack_share_unit-mortar', '1', sum(cracked['unit-mortar'].values()) / sum(sum(modes.values()) for modes in cracked.values()))
 		run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, broken=broken)
 		run.model(model, steps=O.iter)
 		run.quality(unbalanced_ratio_max=unbalanced[len(unbalanced) // 10:].max())

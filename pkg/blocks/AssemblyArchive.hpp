@@ -33,6 +33,15 @@ namespace serialization {
 		KEEP(cohesionResidual), KEEP(tanPhiResidual), KEEP(tensionResidual), KEEP(tanDilation), KEEP(dilationLimitSlip);
 	}
 
+	template <class Archive> void serialize(Archive& ar, blocks::EdgePair& x, unsigned) { KEEP(edge), KEEP(slip), KEEP(sigma), KEEP(tau), KEEP(area); }
+
+	template <class Archive> void serialize(Archive& ar, blocks::FreeContact& x, unsigned) { KEEP(block), KEEP(joint), KEEP(edges), KEEP(friction); }
+
+	template <class Archive> void serialize(Archive& ar, blocks::FreeContacts& x, unsigned)
+	{
+		KEEP(all), KEEP(detectedAt), KEEP(released), KEEP(releasable), KEEP(requests), KEEP(lostFriction);
+	}
+
 	template <class Archive> void serialize(Archive& ar, blocks::MotionGroup& x, unsigned)
 	{
 		int drive = int(x.drive);
@@ -61,7 +70,7 @@ namespace serialization {
 		KEEP(thickness), KEEP(materials);
 		KEEP(reference), KEEP(position), KEEP(velocity), KEEP(force), KEEP(load), KEEP(mass), KEEP(inertia);
 		KEEP(zoneNodes), KEEP(firstNode), KEEP(firstZone), KEEP(firstEdge), KEEP(blockMaterial), KEEP(edgeNodes);
-		KEEP(segments), KEEP(points), KEEP(pairs), KEEP(joints), KEEP(groups);
+		KEEP(segments), KEEP(points), KEEP(pairs), KEEP(joints), KEEP(groups), KEEP(contacts);
 		if (Archive::is_loading::value) x.rebuild();
 	}
 

@@ -8,7 +8,9 @@
 #include <core/EnergyTracker.hpp>
 #include <core/Omega.hpp>
 #include <lib/base/Logging.hpp>
+#include <chrono>
 #include <omp.h>
+#include <thread>
 
 namespace yade {
 
@@ -26,7 +28,32 @@ int threadsFor(const BlockModel& model, int ompThreads)
 	return std::max(1, std::min(available, model.assembly.zoneCount() / zonesPerThread));
 }
 
+void visibly(const std::function<void()>& step)
+{
+	try {
+		step();
+	} catch (...) {
+		std::this_thread::sleep_for(std::chrono::milliseconds(100));
+		throw;
+	}
+}
+
 void BlockTimeStepper::computeTimeStep(Scene* scene)
+{
+	visibly([&] { adjust(scene); });
+}
+
+void BlockForces::action()
+{
+	visibly([&] { gather(); });
+}
+
+void BlockIntegrator::action()
+{
+	visibly([&] { advance(); });
+}
+
+void BlockTimeStepper::adjust(Scene* scene)
 {
 	BlockModel& model = modelOf(scene);
 	model.throwComplaint();
@@ -49,7 +76,7 @@ void BlockTimeStepper::computeTimeStep(Scene* scene)
 	doneQuasiStatic = quasiStatic;
 }
 
-void BlockForces::action()
+void BlockForces::gather()
 {
 	BlockModel& model = modelOf(scene);
 	model.throwComplaint();
@@ -57,9 +84,13 @@ void BlockForces::action()
 	const int              threads = threadsFor(model, ompThreads);
 	blocks::computeJointForces(a, threads);
 	blocks::gatherForces(a, threads);
+	model.forcesAt = scene->iter;
 
 	if (!scene->trackEnergy) return;
-	if (modelOf.changed) frictionId = fractureId = -1;
+	if (modelOf.changed) {
+		dissipation = {};
+		frictionId = fractureId = -1;
+	}
 	if (dissipation.before.size() != a.points.size()) dissipation.start(a);
 	else dissipation.book(a);
 	scene->energy->set(dissipation.friction, "blockFriction", frictionId);
@@ -100,12 +131,14 @@ void BlockIntegrator::checkStep(BlockModel& model)
 	checkedDt      = scene->dt;
 }
 
-void BlockIntegrator::action()
+void BlockIntegrator::advance()
 {
 	BlockModel& model = modelOf(scene);
 	model.throwComplaint();
+	if (model.forcesAt != scene->iter) throw std::runtime_error("O.engines needs a BlockForces before BlockIntegrator");
 	if (modelOf.changed) {
 		watch     = {};
+		viscosity = dissipated = pending = 0;
 		kineticId = zonesId = jointsId = dampingId = workId = -1;
 	}
 	if (model.stiffnessVersion() != checkedVersion || scene->dt != checkedDt) checkStep(model);

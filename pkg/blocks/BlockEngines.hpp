@@ -6,26 +6,32 @@
 #include <blocks/kernel/StabilityWatch.hpp>
 #include <core/GlobalEngine.hpp>
 #include <core/TimeStepper.hpp>
+#include <functional>
 
 namespace yade {
 
 /// The scene's model; engines outlive scenes and are given to new ones, so each step asks again.
 class ModelOfScene {
 public:
-	/// Whether the model is another one than in the last step.
+	/// Whether the model is another one than in the last step: what the engine remembers belongs to an earlier scene.
+	/// (An engine that was just loaded has had no model yet; what it remembers is the loaded one's.)
 	bool changed = false;
 
 	BlockModel& operator()(const Scene* scene)
 	{
 		const auto& found = BlockModel::of(scene);
-		changed           = found != model;
-		if (changed) model = found;
+		changed           = model && found != model;
+		if (found != model) model = found;
 		return *model;
 	}
 
 private:
 	shared_ptr<BlockModel> model; // held, so that no other one can get its address
 };
+
+/// Runs an engine's step; what it throws is held back for a moment, because O.run(n, wait=True) sees only the errors of a run
+/// that is still alive when it begins to wait.
+void visibly(const std::function<void()>& step);
 
 /// Threads worth starting for so many zones.
 int threadsFor(const BlockModel&, int ompThreads);
@@ -34,7 +40,7 @@ class BlockTimeStepper : public TimeStepper {
 public:
 	virtual ~BlockTimeStepper();
 	void computeTimeStep(Scene*) override;
-	Real stable(); ///< for Python
+	void adjust(Scene*);
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(BlockTimeStepper, TimeStepper,
@@ -63,6 +69,7 @@ class BlockForces : public GlobalEngine {
 public:
 	virtual ~BlockForces();
 	void action() override;
+	void gather();
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(BlockForces, GlobalEngine,
@@ -82,6 +89,7 @@ class BlockIntegrator : public GlobalEngine {
 public:
 	virtual ~BlockIntegrator();
 	void action() override;
+	void advance();
 	void postLoad(BlockIntegrator&);
 
 	// clang-format off

@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include "BlockModel.hpp"
 #include "BlockGeom.hpp"
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
@@ -89,24 +90,66 @@ namespace {
 		return odd;
 	}
 
-	/// Whether a lies in b, holes excepted: regions whose edges do not cross lie inside wholly or not at all.
-	bool within(const blocks::Polygon& a, const blocks::Polygon& b)
+	/// Whether p is inside a polygon and farther from its outline than `reach`.
+	bool strictlyInside(const blocks::Vec2& p, const blocks::Polygon& polygon, Real reach)
 	{
-		for (const blocks::Vec2& p : a.outer) {
-			bool in = inside(p, b.outer);
-			for (const auto& hole : b.holes)
-				in = in && !inside(p, hole);
-			if (!in) return false;
+		bool in = inside(p, polygon.outer), near = false;
+		for (const auto& hole : polygon.holes)
+			in = in && !inside(p, hole);
+		auto look = [&](const blocks::Ring& ring) {
+			for (size_t i = 0; i < ring.size(); ++i) {
+				const blocks::Vec2 a = ring[i], along = ring[(i + 1) % ring.size()] - a;
+				const Real         s = std::clamp((p - a).dot(along) / along.squaredNorm(), Real(0), Real(1));
+				near                 = near || (p - a - s * along).norm() <= reach;
+			}
+		};
+		if (in) look(polygon.outer);
+		if (in)
+			for (const auto& hole : polygon.holes)
+				look(hole);
+		return in && !near;
+	}
+
+	/// Whether a piece of a's outline, cut where the two outlines meet, lies inside b.
+	bool enters(const blocks::Polygon& a, const blocks::Polygon& b, Real reach)
+	{
+		vector<const blocks::Ring*> outlines { &b.outer };
+		for (const auto& hole : b.holes)
+			outlines.push_back(&hole);
+		for (size_t i = 0; i < a.outer.size(); ++i) {
+			const blocks::Vec2 p = a.outer[i], along = a.outer[(i + 1) % a.outer.size()] - p;
+			vector<Real>       cuts { 0, 1 };
+			for (const auto* ring : outlines)
+				for (size_t j = 0; j < ring->size(); ++j) {
+					const blocks::Vec2 q = (*ring)[j], other = (*ring)[(j + 1) % ring->size()] - q;
+					const Real         det = blocks::cross(along, other);
+					if (det != 0) cuts.push_back(blocks::cross(q - p, other) / det);
+					cuts.push_back((q - p).dot(along) / along.squaredNorm()); // vertices on collinear edges
+				}
+			std::sort(cuts.begin(), cuts.end());
+			for (size_t k = 1; k < cuts.size(); ++k) {
+				const Real middle = (cuts[k - 1] + cuts[k]) / 2;
+				if (cuts[k - 1] >= 0 && cuts[k] <= 1 && cuts[k] > cuts[k - 1] && strictlyInside(p + middle * along, b, reach)) return true;
+			}
 		}
-		return true;
+		return false;
 	}
 }
 
 void BlockModel::claim(const blocks::Polygon& region)
 {
+	using Box        = Eigen::AlignedBox<Real, 2>;
+	auto boxOf       = [](const blocks::Polygon& polygon) {
+		Box box;
+		for (const auto& p : polygon.outer)
+			box.extend(p);
+		return box;
+	};
+	const Box  box   = boxOf(region);
+	const Real reach = 1e-6 * box.diagonal().norm(); // as near as that is touching
 	for (size_t i = 0; i < regions.size(); ++i)
-		if (within(region, regions[i]) || within(regions[i], region))
-			throw std::invalid_argument("regions must not overlap: the new one and region " + std::to_string(i) + " lie within one another (leave a hole)");
+		if (box.intersects(boxOf(regions[i])) && (enters(region, regions[i], reach) || enters(regions[i], region, reach)))
+			throw std::invalid_argument("regions must not overlap: the new one overlaps region " + std::to_string(i) + " (the first is 0)");
 	regions.push_back(region);
 }
 

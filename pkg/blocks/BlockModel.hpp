@@ -27,6 +27,9 @@ public:
 	virtual ~BlockModel();
 	void postLoad(BlockModel&);
 
+	/// Step of which the forces are, as BlockForces says.
+	long forcesAt = -1;
+
 	/// The scene's model, or an error that says how one gets there.
 	static const shared_ptr<BlockModel>& of(const Scene*);
 
@@ -46,7 +49,7 @@ public:
 	/// One Body per block and one Interaction per pair, into the present scene.
 	void insert();
 
-	/// Takes note of a region, and refuses one that lies inside another or holds another; crossing edges show in bond().
+	/// Takes note of a region, and refuses one that overlaps another.
 	void claim(const blocks::Polygon&);
 
 	/// Refuses changes of what was already handed over to the scene.
@@ -58,7 +61,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(BlockModel, Serializable,
 		"All blocks of a scene in flat arrays: grid points, zones, boundary edges, joints. Build it once (materials, :yref:`addVoronoi<BlockModel.addVoronoi>`, "
 		":yref:`addRegion<BlockModel.addRegion>`, :yref:`bond<BlockModel.bond>`, boundary conditions, :yref:`insert<BlockModel.insert>`), then let the engines work on it. "
-		"SI units, tension positive. Arrays are numpy views of the model's own memory: reading costs no copy, writing changes the model.",
+		"SI units, tension positive. Once inserted, arrays are numpy views of the model's own memory: reading costs no copy; position and velocity may be written.",
 		((Real, thickness, 1, Attr::triggerPostLoad, "Out-of-plane thickness [m]; to be set before the first block."))
 		((bool, planeStress, false, Attr::triggerPostLoad, "Plane stress instead of plane strain."))
 		((bool, smallStrain, false, Attr::triggerPostLoad, "Small-strain zones: cheaper, only for scenes in which no block turns by more than about 1e-3."))

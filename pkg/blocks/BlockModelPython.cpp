@@ -71,7 +71,7 @@ namespace {
 		options.lloyd   = lloyd;
 		options.seed    = seed;
 		options.seeds   = ring(seeds);
-		if (mergeFraction >= 0) options.mergeFraction = mergeFraction;
+		if (!(mergeFraction < 0)) options.mergeFraction = mergeFraction;
 		const blocks::Polygon region = polygon(outer, holes);
 		const blocks::Cells   cells  = blocks::tessellate(region, options);
 		model.claim(region);
@@ -202,7 +202,7 @@ namespace {
 
 	// ---- arrays
 
-	enum class Use { state, topology }; ///< scripts may write the one but not the other
+	enum class Use { state, result }; ///< scripts may write the one but not the other
 
 	void startNumpy()
 	{
@@ -222,7 +222,7 @@ namespace {
 		py::object    array = np::from_data(data, np::dtype::get_builtin<Number>(), shape, steps, self);
 		const bool    grows = py::extract<BlockModel&>(self)().firstBody < 0;
 		if (grows) array = array.attr("copy")();
-		if (grows || use == Use::topology) array.attr("setflags")(false);
+		if (grows || use == Use::result) array.attr("setflags")(false);
 		return array;
 	}
 
@@ -311,29 +311,29 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 	        .add_property("zoneCount", &zoneCount, "Number of zones.")
 	        .add_property("contactCount", &contactCount, "Number of contact points.")
 	                VIEW(state, position, Real, position, 2, "Grid points' positions, shape (grid points, 2) [m].")
-	                VIEW(topology, reference, Real, reference, 2, "Grid points' positions without stress, shape (grid points, 2) [m].")
+	                VIEW(result, reference, Real, reference, 2, "Grid points' positions without stress, shape (grid points, 2) [m].")
 	                VIEW(state, velocity, Real, velocity, 2, "Grid points' velocities half a step ago, shape (grid points, 2) [m/s].")
-	                VIEW(state, force, Real, force, 2, "Grid points' unbalanced forces, shape (grid points, 2) [N].")
-	                VIEW(topology, mass, Real, mass, 1, "Grid points' true masses [kg].")
-	                VIEW(state, inertia, Real, inertia, 1, "Grid points' masses as they resist motion, scaled if BlockTimeStepper scales them [kg].")
-	                VIEW(topology, zoneNodes, int, zoneNodes, 3, "Grid points of every zone, counter-clockwise, shape (zones, 3).")
-	                VIEW(topology, zoneVolume, Real, zoneVolume, 1, "Volumes of the zones [m3].")
-	                VIEW(topology, firstNode, int, firstNode, 1, "First grid point of every block, and their number at the end.")
-	                VIEW(topology, firstZone, int, firstZone, 1, "First zone of every block, and their number at the end.")
-	                VIEW(topology, firstEdge, int, firstEdge, 1, "First boundary edge of every block, and their number at the end.")
-	                VIEW(topology, blockMaterial, int, blockMaterial, 1, "Material of every block, an index into materialLabels.")
-	                VIEW(topology, edgeNodes, int, edgeNodes, 2, "Grid points of the boundary edges, material on the left, shape (edges, 2).")
-	                VIEW_FIELD(topology, segmentNodes, int, segments, Segment, node, 4, "Edge a1, b1 of the first and a2, b2 of the second block of every segment, shape (segments, 4).")
-	                VIEW_FIELD(topology, segmentBlocks, int, segments, Segment, block, 2, "The two blocks of every segment, shape (segments, 2).")
-	                VIEW_FIELD(topology, segmentParameters, Real, segments, Segment, s1, 4, "Where the two contact points are along the first edge, then along the second (0 at a, 1 at b), shape (segments, 4).")
-	                VIEW_FIELD(topology, segmentArea, Real, segments, Segment, area, 1, "Area of each of the two contact points of every segment [m2].")
-	                VIEW_FIELD(topology, normal, Real, frames, SegmentFrame, nx, 2, "Unit normals of the segments, out of the first block, shape (segments, 2).")
-	                VIEW_FIELD(state, pointOpening, Real, points, ContactPoint, opening, 1, "Openings of the contact points, two a segment [m].")
-	                VIEW_FIELD(state, pointSlip, Real, points, ContactPoint, slip, 1, "Slips of the contact points [m].")
-	                VIEW_FIELD(state, pointSigma, Real, points, ContactPoint, sigma, 1, "Normal stresses of the contact points, tension positive [Pa].")
-	                VIEW_FIELD(state, pointTau, Real, points, ContactPoint, tau, 1, "Shear stresses of the contact points [Pa].")
+	                VIEW(result, force, Real, force, 2, "Grid points' unbalanced forces, shape (grid points, 2) [N].")
+	                VIEW(result, mass, Real, mass, 1, "Grid points' true masses [kg].")
+	                VIEW(result, inertia, Real, inertia, 1, "Grid points' masses as they resist motion, scaled if BlockTimeStepper scales them [kg].")
+	                VIEW(result, zoneNodes, int, zoneNodes, 3, "Grid points of every zone, counter-clockwise, shape (zones, 3).")
+	                VIEW(result, zoneVolume, Real, zoneVolume, 1, "Volumes of the zones [m3].")
+	                VIEW(result, firstNode, int, firstNode, 1, "First grid point of every block, and their number at the end.")
+	                VIEW(result, firstZone, int, firstZone, 1, "First zone of every block, and their number at the end.")
+	                VIEW(result, firstEdge, int, firstEdge, 1, "First boundary edge of every block, and their number at the end.")
+	                VIEW(result, blockMaterial, int, blockMaterial, 1, "Material of every block, an index into materialLabels.")
+	                VIEW(result, edgeNodes, int, edgeNodes, 2, "Grid points of the boundary edges, material on the left, shape (edges, 2).")
+	                VIEW_FIELD(result, segmentNodes, int, segments, Segment, node, 4, "Edge a1, b1 of the first and a2, b2 of the second block of every segment, shape (segments, 4).")
+	                VIEW_FIELD(result, segmentBlocks, int, segments, Segment, block, 2, "The two blocks of every segment, shape (segments, 2).")
+	                VIEW_FIELD(result, segmentParameters, Real, segments, Segment, s1, 4, "Where the two contact points are along the first edge, then along the second (0 at a, 1 at b), shape (segments, 4).")
+	                VIEW_FIELD(result, segmentArea, Real, segments, Segment, area, 1, "Area of each of the two contact points of every segment [m2].")
+	                VIEW_FIELD(result, normal, Real, frames, SegmentFrame, nx, 2, "Unit normals of the segments, out of the first block, shape (segments, 2).")
+	                VIEW_FIELD(result, pointOpening, Real, points, ContactPoint, opening, 1, "Openings of the contact points, two a segment [m].")
+	                VIEW_FIELD(result, pointSlip, Real, points, ContactPoint, slip, 1, "Slips of the contact points [m].")
+	                VIEW_FIELD(result, pointSigma, Real, points, ContactPoint, sigma, 1, "Normal stresses of the contact points, tension positive [Pa].")
+	                VIEW_FIELD(result, pointTau, Real, points, ContactPoint, tau, 1, "Shear stresses of the contact points [Pa].")
 	                .add_property("pointStatus", py::make_function(+[](py::object self) -> py::object {
-		                return view<std::uint8_t>(self, arrays(self).points, 1, Use::topology, offsetof(blocks::ContactPoint, joint) + offsetof(blocks::JointState, status));
+		                return view<std::uint8_t>(self, arrays(self).points, 1, Use::result, offsetof(blocks::ContactPoint, joint) + offsetof(blocks::JointState, status));
 	                }), "0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded.");
 }
 

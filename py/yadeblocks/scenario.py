@@ -41,7 +41,7 @@ _common = {
         "lloyd": _Common(2, notNegative, "Lloyd iterations: how regular the cells are"),
         "damping": _Common("local", choice("local", "adaptive", "none"), "damping of the motion"),
         "alpha": _Common(0.3, Rule(lambda a: 0 <= a < 1, "must lie in [0, 1)"), "coefficient of local damping"),
-        "steps": _Common(40000, atLeastOne, "time steps for the whole loading"),
+        "steps": _Common(40000, Rule(lambda n: n >= 1000, "must be at least 1000"), "time steps for the whole loading"),
         "plane": _Common("strain", choice("strain", "stress"), "plane strain or plane stress"),
 }
 

@@ -95,12 +95,12 @@ TEST(ContactDetection, AreasAddUpOnUnequalMeshes)
 	BlockAssembly a = emptyAssembly(0.35);
 	const Vec2    along(0.6, 0.8), across(0.8, -0.6);
 	auto          side = [&](int n, Real sign) {
-                Ring ring;
-                for (int i = 0; i <= n; ++i)
-                        ring.push_back(2.5 * (sign > 0 ? n - i : i) / n * along); // block 0 lies left of the line
-                ring.push_back(ring.back() + sign * 0.9 * across);
-                ring.push_back(ring.front() + sign * 0.9 * across);
-                return ring;
+		Ring ring;
+		for (int i = 0; i <= n; ++i)
+			ring.push_back(2.5 * (sign > 0 ? n - i : i) / n * along); // block 0 lies left of the line
+		ring.push_back(ring.back() + sign * 0.9 * across);
+		ring.push_back(ring.front() + sign * 0.9 * across);
+		return ring;
 	};
 	addFan(a, side(3, -1));
 	addFan(a, side(7, +1));

@@ -181,20 +181,20 @@ TEST(JointLaw, RefusesImpossibleParameters)
 	};
 	const Real nan = std::nan("");
 	for (const Case& c : std::vector<Case> {
-	             { &JointParams::kn, 0, "kn", "positive and finite [Pa/m]", "0" },
-	             { &JointParams::kn, inf, "kn", "positive and finite [Pa/m]", "inf" },
-	             { &JointParams::kn, nan, "kn", "positive and finite [Pa/m]", "nan" },
-	             { &JointParams::ks, -3, "ks", "positive and finite [Pa/m]", "-3" },
-	             { &JointParams::cohesion, -1e-9, "cohesion", "not be negative [Pa]", "1.0000000000000001e-09" },
-	             { &JointParams::tension, nan, "tension", "not be negative [Pa]", "nan" },
-	             { &JointParams::cohesionResidual, -1, "cohesionResidual", "not be negative [Pa]", "-1" },
-	             { &JointParams::tensionResidual, -2, "tensionResidual", "not be negative [Pa]", "-2" },
-	             { &JointParams::dilationLimitSlip, -0.5, "dilationLimitSlip", "not be negative [m]", "-0.5" },
-	             { &JointParams::tanPhi, -0.25, "friction", "[0, 90) degrees", "-0.25" },
-	             { &JointParams::tanPhiResidual, inf, "friction", "[0, 90) degrees", "inf" },
-	             { &JointParams::tanDilation, nan, "dilation", "[0, 90) degrees", "nan" },
-	             { &JointParams::cohesionResidual, 2.5e6, "cohesionResidual", "not exceed cohesion [Pa]", "2500000" },
-	             { &JointParams::tensionResidual, 1.5e6, "tensionResidual", "not exceed tension [Pa]", "1500000" } }) {
+		     { &JointParams::kn, 0, "kn", "positive and finite [Pa/m]", "0" },
+		     { &JointParams::kn, inf, "kn", "positive and finite [Pa/m]", "inf" },
+		     { &JointParams::kn, nan, "kn", "positive and finite [Pa/m]", "nan" },
+		     { &JointParams::ks, -3, "ks", "positive and finite [Pa/m]", "-3" },
+		     { &JointParams::cohesion, -1e-9, "cohesion", "not be negative [Pa]", "1.0000000000000001e-09" },
+		     { &JointParams::tension, nan, "tension", "not be negative [Pa]", "nan" },
+		     { &JointParams::cohesionResidual, -1, "cohesionResidual", "not be negative [Pa]", "-1" },
+		     { &JointParams::tensionResidual, -2, "tensionResidual", "not be negative [Pa]", "-2" },
+		     { &JointParams::dilationLimitSlip, -0.5, "dilationLimitSlip", "not be negative [m]", "-0.5" },
+		     { &JointParams::tanPhi, -0.25, "friction", "[0, 90) degrees", "-0.25" },
+		     { &JointParams::tanPhiResidual, inf, "friction", "[0, 90) degrees", "inf" },
+		     { &JointParams::tanDilation, nan, "dilation", "[0, 90) degrees", "nan" },
+		     { &JointParams::cohesionResidual, 2.5e6, "cohesionResidual", "not exceed cohesion [Pa]", "2500000" },
+		     { &JointParams::tensionResidual, 1.5e6, "tensionResidual", "not exceed tension [Pa]", "1500000" } }) {
 		JointParams p = mortar();
 		p.*c.member   = c.value;
 		expectRefusal([&] { validate(p); }, { c.name, c.rule, c.shown });

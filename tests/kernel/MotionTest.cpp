@@ -216,15 +216,15 @@ TEST(Damping, OneStepOfEach)
 	Damping viscous = damped(Damping::Kind::adaptive);
 	viscous.c       = 4;
 	for (const Row& r : std::vector<Row> {
-	             { "none", damped(Damping::Kind::none), 6, 0.5, 2, 0.1, 0.8 },
-	             { "local, with the motion: (1 - alpha) F", damped(Damping::Kind::local, 0.3), 6, 0.5, 2, 0.1, 0.71 },
-	             { "local, against it: (1 + alpha) F", damped(Damping::Kind::local, 0.3), -6, 0.5, 2, 0.1, 0.11 },
-	             { "local, from rest: the force decides", damped(Damping::Kind::local, 0.3), -6, 0, 2, 0.1, -0.21 },
-	             // v + a dt/2 = 0.1 - 0.15 < 0: the motion has turned by mid-step, so the force drives it
-	             { "local, turning: sign of v + a dt/2", damped(Damping::Kind::local, 0.3), -6, 0.1, 2, 0.1, -0.11 },
-	             { "local, not yet turned", damped(Damping::Kind::local, 0.3), -6, 0.2, 2, 0.1, -0.19 },
-	             // m (v' - v)/dt = F - c m (v' + v)/2: v' (1 + 0.2) = 0.5 (1 - 0.2) + 0.3
-	             { "viscous", viscous, 6, 0.5, 2, 0.1, 0.7 / 1.2 } }) {
+		     { "none", damped(Damping::Kind::none), 6, 0.5, 2, 0.1, 0.8 },
+		     { "local, with the motion: (1 - alpha) F", damped(Damping::Kind::local, 0.3), 6, 0.5, 2, 0.1, 0.71 },
+		     { "local, against it: (1 + alpha) F", damped(Damping::Kind::local, 0.3), -6, 0.5, 2, 0.1, 0.11 },
+		     { "local, from rest: the force decides", damped(Damping::Kind::local, 0.3), -6, 0, 2, 0.1, -0.21 },
+		     // v + a dt/2 = 0.1 - 0.15 < 0: the motion has turned by mid-step, so the force drives it
+		     { "local, turning: sign of v + a dt/2", damped(Damping::Kind::local, 0.3), -6, 0.1, 2, 0.1, -0.11 },
+		     { "local, not yet turned", damped(Damping::Kind::local, 0.3), -6, 0.2, 2, 0.1, -0.19 },
+		     // m (v' - v)/dt = F - c m (v' + v)/2: v' (1 + 0.2) = 0.5 (1 - 0.2) + 0.3
+		     { "viscous", viscous, 6, 0.5, 2, 0.1, 0.7 / 1.2 } }) {
 		SCOPED_TRACE(r.what);
 		StepWork   work;
 		const Real v = velocityAfter(r.damping, r.f, r.v, r.m, r.dt, &work);

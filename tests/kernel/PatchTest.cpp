@@ -129,15 +129,15 @@ TEST(Patch, StiffJointsApproachTheContinuum)
 {
 	const Matrix P = (Matrix() << 3e4, 1e4, 1e4, -2e4).finished(); // small, so that nothing but 1/k matters
 	auto         disturbance = [&](Real k) {
-                BlockAssembly a = voronoi(width, height, 4, 3, stone(), elasticJoint(k, k / 2), thickness, nullptr, 11);
-                addTractions(a, P);
-                solveStatics(a, 1e-6, true);
-                Real worst = 0;
-                for (int z = 0; z < a.zoneCount(); ++z) {
-                        const ZoneStress s = stressOfZone(a, z);
-                        worst = std::max({ worst, std::abs(s.sxx - P(0, 0)), std::abs(s.syy - P(1, 1)), std::abs(s.sxy - P(0, 1)) });
-                }
-                return worst / 3e4;
+		BlockAssembly a = voronoi(width, height, 4, 3, stone(), elasticJoint(k, k / 2), thickness, nullptr, 11);
+		addTractions(a, P);
+		solveStatics(a, 1e-6, true);
+		Real worst = 0;
+		for (int z = 0; z < a.zoneCount(); ++z) {
+			const ZoneStress s = stressOfZone(a, z);
+			worst = std::max({ worst, std::abs(s.sxx - P(0, 0)), std::abs(s.syy - P(1, 1)), std::abs(s.sxy - P(0, 1)) });
+		}
+		return worst / 3e4;
 	};
 	const Real k = 20e9 / 0.25 / 0.01, soft = disturbance(k), stiff = disturbance(10 * k);
 	EXPECT_LT(soft, 0.1); // 10 E/(k s): the zones at short edges take most
@@ -299,10 +299,10 @@ TEST(BlockAssembly, GatheringAddsEveryZoneOfEveryMaterial)
 				const Vec2      p = a.position[node[1]] - a.position[node[0]], q = a.position[node[2]] - a.position[node[0]];
 				const auto&     g = a.zoneGradient[z];
 				const auto      e = strain == Strain::large ? zoneStrain<Strain::large>(g, p.x(), p.y(), q.x(), q.y())
-				                                            : zoneStrain<Strain::small>(g, p.x(), p.y(), q.x(), q.y());
+									    : zoneStrain<Strain::small>(g, p.x(), p.y(), q.x(), q.y());
 				const auto      t = zoneStress(planeModuli(m.young, m.poisson, a.plane), e);
 				const auto      k = strain == Strain::large ? zoneForces<Strain::large>(g, a.zoneVolume[z], t, e)
-				                                            : zoneForces<Strain::small>(g, a.zoneVolume[z], t, e);
+									    : zoneForces<Strain::small>(g, a.zoneVolume[z], t, e);
 				f[node[1]] += Vec2(k.f1x, k.f1y);
 				f[node[2]] += Vec2(k.f2x, k.f2y);
 				f[node[0]] -= Vec2(k.f1x + k.f2x, k.f1y + k.f2y);

@@ -197,7 +197,7 @@ TEST(TimeStep, PlatenUnderForceCountsDrivenOneDoesNot)
 		BlockAssembly a;
 		a.addMaterial({ 20e9, 0, 2000 });
 		a.addBlock({ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 }, { 1, 1.01 }, { 0, 1.01 } }, { { 0, 1, 2, 4, 5, 3 } },
-		           { { 0, 1, 2 }, { 0, 2, 3 }, { 3, 2, 4 }, { 3, 4, 5 } }, 0);
+			   { { 0, 1, 2 }, { 0, 2, 3 }, { 3, 2, 4 }, { 3, 4, 5 } }, 0);
 		a.addGroup(driven("sides", dofs(a, 0, [](const Vec2&) { return true; }), 0));
 		std::vector<int> top { 9, 11 };
 		a.addGroup(force ? pushed("platen", top, 0) : driven("platen", top, 0));
@@ -244,13 +244,13 @@ TEST(Convergence, StandingPWaveBar)
 	// triangles of a cell lump masses unequally and so shear a little: another term of the same order. Observed order 2.
 	const Real exact = M_PI * std::sqrt(20e9 * 0.8 / (1.2 * 0.6) / 2000);
 	auto       error = [&](int n) {
-                BlockAssembly a;
-                a.addMaterial(stone());
-                a.strain = Strain::small;
-                addGrid(a, { 0, 0 }, 1, 0.1, n, 1);
-                a.addGroup(driven("y", dofs(a, 1, [](const Vec2&) { return true; }), 0));
-                const Modes m = modes(a, 0.1);
-                return std::abs(m.omega[1] - exact) / exact; // after the rigid mode
+		BlockAssembly a;
+		a.addMaterial(stone());
+		a.strain = Strain::small;
+		addGrid(a, { 0, 0 }, 1, 0.1, n, 1);
+		a.addGroup(driven("y", dofs(a, 1, [](const Vec2&) { return true; }), 0));
+		const Modes m = modes(a, 0.1);
+		return std::abs(m.omega[1] - exact) / exact; // after the rigid mode
 	};
 	const Real coarse = error(8), fine = error(16), finer = error(32);
 	EXPECT_LT(fine, std::pow(M_PI / 16, 2) / 24 * 2);

@@ -1,14 +1,13 @@
 // yade-blocks, GPL-2.0-or-later
 
-#include "Tessellation.hpp"
 #include "Zoning.hpp"
+#include "Tessellation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <map>
 #include <random>
 #include <set>
 
@@ -25,7 +24,7 @@ Ring reversed(Ring ring) { return { ring.rbegin(), ring.rend() }; }
 const Ring pentagon = { { 0.1, 0.2 }, { 1.7, 0.5 }, { 2.1, 1.9 }, { 1.0, 2.3 }, { -0.3, 1.1 } };
 const Ring lShape   = { { 0, 0 }, { 3, 0 }, { 3, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 } };
 const Ring hook     = { { 0, 0 }, { 3, 0 }, { 3, 3 }, { 2, 3 }, { 2, 1 }, { 1, 1 }, { 1, 3 }, { 0, 3 } }; // a U: no point sees all of it
-const Ring arrow    = { { 0, 0 }, { 4, 0 }, { 4, 4 }, { 3.6, 0.5 } };                                      // its centroid lies outside
+const Ring arrow    = { { 0, 0 }, { 4, 0 }, { 4, 4 }, { 3.6, 0.5 } };                                     // its centroid lies outside
 
 Real areaOf(const Polygon& polygon)
 {
@@ -139,7 +138,12 @@ TEST(FanZones, takeCollinearVertices)
 
 TEST(CornerZones, addNoPoint)
 {
-	for (const Ring& ring : { pentagon, lShape, hook, arrow, Ring { { 0, 0 }, { 2, 0 }, { 1, 1 } }, Ring { { 0, 0 }, { 1, 0 }, { 1.5, 0 }, { 2, 0 }, { 1, 1 }, { 0.5, 0.5 } } }) {
+	for (const Ring& ring : { pentagon,
+	                          lShape,
+	                          hook,
+	                          arrow,
+	                          Ring { { 0, 0 }, { 2, 0 }, { 1, 1 } },
+	                          Ring { { 0, 0 }, { 1, 0 }, { 1.5, 0 }, { 2, 0 }, { 1, 1 }, { 0.5, 0.5 } } }) {
 		const Zones zones = cornerZones(ring);
 		expectMesh(ring, zones, "corners");
 		EXPECT_EQ(zones.points.size(), ring.size());
@@ -179,7 +183,8 @@ TEST(RegularZones, fillARectangle)
 		turned.push_back({ c * p.x() - s * p.y(), s * p.x() + c * p.y() });
 	expectMesh(turned, regularZones(turned, 0.3), "turned");
 	expectMesh(rectangle(0, 0, 0.3, 0.1), regularZones(rectangle(0, 0, 0.3, 0.1), 0.1 / 3), "sizes without exact number");
-	EXPECT_EQ(regularZones(rectangle(0, 0, 0.3, 0.1), 0.1 / 3).triangles.size(), 2u * 9 * 3); // and no sliver column
+	EXPECT_EQ(regularZones(rectangle(0, 0, 0.3, 0.1), 0.1 / 3).triangles.size(), 2u * 9 * 3);
+	EXPECT_EQ(regularZones(rectangle(0, 0, 3 * 0.1, 0.1), 0.1).triangles.size(), 6u); // 3 x 0.1 / 0.1 is 4e-16 more than 3: no fourth column
 }
 
 TEST(RegularZones, keepFurtherVertices)
@@ -208,7 +213,7 @@ TEST(DelaunayZones, meshAllKindsOfBlocks)
 TEST(DelaunayZones, haveTheSizeAskedFor)
 {
 	for (Real size : { 0.1, 0.05, 0.02 }) {
-		const Zones zones = delaunayZones(rectangle(0, 0, 1.03, 0.71), size);
+		const Zones zones   = delaunayZones(rectangle(0, 0, 1.03, 0.71), size);
 		Real        longest = 0, sum = 0;
 		int         sides = 0;
 		for (const auto& t : zones.triangles)
@@ -268,8 +273,8 @@ TEST(DelaunayZones, haveTheirSizeWithinLongEdgesToo)
 
 TEST(DelaunayZones, sameInputSameBits)
 {
-	const Polygon holed { lShape, { reversed(rectangle(0.3, 0.3, 0.6, 0.7)) } };
-	const Zones   a = delaunayZones(holed, 0.1);
+	const Polygon                 holed { lShape, { reversed(rectangle(0.3, 0.3, 0.6, 0.7)) } };
+	const Zones                   a = delaunayZones(holed, 0.1);
 	std::vector<std::vector<int>> clutter; // other addresses the second time
 	for (int i = 0; i < 1000; ++i)
 		clutter.emplace_back(i);
@@ -307,6 +312,29 @@ TEST(Zones, ofRandomBlocks)
 		expectMesh(ring, cornerZones(ring), "corners, trial " + std::to_string(trial));
 		expectMesh(ring, delaunayZones(ring, dice(0.1, 0.5), trial % 2 ? Outline::split : Outline::kept), "Delaunay, trial " + std::to_string(trial));
 		if (HasFailure()) break;
+	}
+}
+
+// No interior point comes so near to an outline edge that it makes a needlessly flat zone there.
+TEST(DelaunayZones, keepAwayFromTheOutline)
+{
+	std::mt19937_64 source(3);
+	const auto      dice = [&](Real low, Real high) { return low + (high - low) * Real(source() >> 11) * 0x1p-53; };
+	for (int trial = 0; trial < 100; ++trial) {
+		Ring      ring; // fairly round, with 5 to 11 corners: edges of 0.5 and more
+		const int n = 5 + trial % 7;
+		for (int k = 0; k < n; ++k) {
+			const Real angle = 2 * M_PI * (k + dice(0, 0.3)) / n, radius = dice(0.8, 1);
+			ring.push_back({ 2 + radius * std::cos(angle), -1 + radius * std::sin(angle) });
+		}
+		const Real  size  = dice(0.1, 0.3);
+		const Zones zones = delaunayZones(ring, size, Outline::kept);
+		for (size_t i = ring.size(); i < zones.points.size(); ++i)
+			for (int k = 0; k < n; ++k) {
+				const Vec2 &a = ring[k], &b = ring[(k + 1) % n], &p = zones.points[i];
+				// placed at 0.5 size or farther; smoothing may take a little of it
+				EXPECT_TRUE((a - p).dot(b - p) >= 0 || cross(b - a, p - a) > 0.3 * size * (b - a).norm()) << "trial " << trial;
+			}
 	}
 }
 
@@ -350,3 +378,8 @@ TEST(Zones, refuseBadInput)
 	expectRefused([&] { regularZones({ { 0, 0 }, { 1, 0 }, { 1.1, 1 }, { 0, 1 } }, 1); }, { "regularZones", "rectangle" });
 	expectRefused([&] { regularZones({ { 0, 0 }, { 1, 0 }, { 1.2, 1 }, { 0.2, 1 } }, 1); }, { "regularZones", "rectangle" }); // a parallelogram
 }
+
+// Mutations tried on Zoning.cpp, each noticed by at least one test: a factor in the fan's centroid; the kernel without its
+// border; the fan's point not checked; split points moved off; smoothing without its check; no refinement; refinement
+// outside of the block; encroachment ignored; grading ignored; holes filled; `kept` ignored; a rounding error giving one
+// more column; the aspect's factor; a rectangle's angles unchecked.

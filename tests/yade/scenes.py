@@ -62,7 +62,7 @@ def couplet(size=6e-3, steps=3000, stroke=0.012e-3, trackEnergy=False, **integra
 	return model
 
 
-def column(heights=(0.3, 0.5), labels=None, width=0.4, thickness=0.2, gap=0., zoneSize=0.2, joints=None, **integrator):
+def column(heights=(0.3, 0.5), labels=None, width=0.4, thickness=0.2, zoneSize=0.2):
 	"""Rectangular blocks one upon the other, bonded, not inserted: boundary conditions are the test's."""
 	model, y = BlockModel(thickness=thickness), 0
 	for height, label in zip(heights, labels or ['unit'] * len(heights)):
@@ -91,14 +91,6 @@ def state(model):
 def differences(a, b):
 	"""Names of what differs in a single bit between two states."""
 	return [name for name in a if a[name].shape != b[name].shape or a[name].tobytes() != b[name].tobytes()]
-
-
-def settle(model, ratio=1e-13, most=50000):
-	"""Runs until the unbalanced ratio is small; the ratio that was reached."""
-	for _ in range(most // 200):
-		O.run(200, True)
-		if model.unbalancedRatio() < ratio: break
-	return model.unbalancedRatio()
 
 
 def runYade(script, *arguments, threads=1, cwd=None, env={}):

@@ -154,6 +154,7 @@ int BlockAssembly::addGroup(MotionGroup group)
 	require(!group.dofs.empty(), "motion group \"" + group.name + "\" must hold at least one degree of freedom; count", 0);
 	require(std::isfinite(group.target), "motion group \"" + group.name + "\": target must be finite", group.target);
 	require(group.rampTime >= 0 && std::isfinite(group.rampTime), "motion group \"" + group.name + "\": rampTime must not be negative [s]", group.rampTime);
+	require(std::isfinite(group.startTime), "motion group \"" + group.name + "\": startTime must be finite [s]", group.startTime);
 	for (size_t i = 0; i < group.dofs.size(); ++i) {
 		const int dof = group.dofs[i];
 		require(dof >= 0 && dof < 2 * nodeCount(), "motion group \"" + group.name + "\": no such degree of freedom", dof);

@@ -66,7 +66,6 @@ void JointDissipation::start(const BlockAssembly& a)
 	before.clear();
 	for (const ContactPoint& p : a.points)
 		before.push_back({ p.opening, p.slip, p.sigma, p.tau, p.joint.status });
-	contactsBefore = contactFriction(a);
 }
 
 void JointDissipation::book(const BlockAssembly& a)
@@ -78,9 +77,6 @@ void JointDissipation::book(const BlockAssembly& a)
 		(b.status == p.joint.status ? friction : fracture) += g.area * (work - stored);
 		b = { p.opening, p.slip, p.sigma, p.tau, p.joint.status };
 	});
-	const Real contacts = contactFriction(a);
-	friction += contacts - contactsBefore;
-	contactsBefore = contacts;
 }
 
 Real unbalancedRatio(const BlockAssembly& a, Real floor)

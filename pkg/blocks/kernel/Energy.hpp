@@ -6,12 +6,12 @@
 namespace blocks {
 
 Real zoneEnergy(const BlockAssembly&);    ///< elastic energy of the zones
-Real jointEnergy(const BlockAssembly&);   ///< elastic energy of the joints' springs
+Real jointEnergy(const BlockAssembly&);   ///< elastic energy of the joints' springs and of free contacts
 Real kineticEnergy(const BlockAssembly&); ///< from the velocities at the last half step and the inertia
 Real loadWork(const BlockAssembly&);      ///< of the dead loads since the reference state
 Real groupWork(const BlockAssembly&);     ///< of driven and pushed degrees of freedom
 
-/// Dissipation at the contact points, by the trapezoidal rule from step to step. Exists only where somebody keeps accounts.
+/// Dissipation at the contact points (free contacts book their own, see contactFriction), by the trapezoidal rule from step to step. Exists only where somebody keeps accounts.
 struct JointDissipation {
 	/// Takes the present state as the start.
 	void start(const BlockAssembly&);

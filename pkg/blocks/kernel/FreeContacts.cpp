@@ -199,13 +199,13 @@ namespace {
 	}
 
 	/// Turns the broken segments of a pair of blocks into free edge pairs; their slip goes with them.
-	void release(BlockAssembly& a, int pair)
+	bool release(BlockAssembly& a, int pair)
 	{
 		FreeContacts&    f = a.contacts;
 		std::vector<int> broken;
 		for (int s = a.pairs[pair].first; s < a.pairs[pair].last; ++s)
 			if (!isReleased(f, s) && mayRelease(a, a.joints[pair], s)) broken.push_back(s);
-		if (broken.empty()) return;
+		if (broken.empty()) return false;
 
 		FreeContact& contact = f.all[makeContact(a, a.pairs[pair].block)];
 		if (!(contact.joint.kn > 0)) contact.joint = a.joints[pair];
@@ -228,7 +228,7 @@ namespace {
 			at->area           = a.segments[s].area;
 			a.segments[s].area = 0; // from here on the points of the segment carry nothing
 		}
-		++f.version;
+		return true;
 	}
 
 	Real shearEnergy(const FreeContact& c, const EdgePair& e) { return c.joint.ks / 2 * e.area * (e.slip[0] * e.slip[0] + e.slip[1] * e.slip[1]); }
@@ -323,8 +323,7 @@ void prepareContacts(BlockAssembly& a)
 		if (!f.releasable[pair]) continue;
 		f.releasable[pair] = false;
 		watch(a.pairs[pair].block[0]), watch(a.pairs[pair].block[1]);
-		release(a, pair);
-		created = true;
+		if (release(a, pair)) created = true;
 	}
 
 	if (any) {
@@ -430,24 +429,28 @@ void gatherContactForces(const BlockAssembly& a, int block, Vec2* force)
 	}
 }
 
-void addContactStiffness(const BlockAssembly& a, std::vector<Real>& stiffness)
+std::vector<Real> contactStiffness(const BlockAssembly& a)
 {
 	// Overlaps do not overlap: the areas on one edge add up to its own, however many blocks there are. So its two vertices
 	// get at most as much as from point contacts with all of T L on either vertex: 2 k (T L / 2) from each edge.
 	std::vector<Real> stiffest(a.blockCount(), 0);
-	for (int i : a.contacts.order) {
-		const FreeContact& c = a.contacts.all[i];
-		for (int block : c.block)
-			stiffest[block] = std::max({ stiffest[block], c.joint.kn, c.joint.ks });
-	}
+	auto              include = [&](int block, const JointParams& joint) { stiffest[block] = std::max({ stiffest[block], joint.kn, joint.ks }); };
+	for (int i : a.contacts.order)
+		for (int block : a.contacts.all[i].block)
+			include(block, a.contacts.all[i].joint);
+	for (size_t pair = 0; pair < a.pairs.size(); ++pair)
+		for (int block : a.pairs[pair].block)
+			if (stiffest[block] > 0) include(block, a.joints[pair]);
+
+	std::vector<Real> stiffness(a.nodeCount(), 0);
 	for (int b = 0; b < a.blockCount(); ++b)
-		if (stiffest[b] > 0)
-			for (int e = a.firstEdge[b]; e < a.firstEdge[b + 1]; ++e) {
-				const auto& node  = a.edgeNodes[e];
-				const Real  share = stiffest[b] * a.thickness * (a.reference[node[1]] - a.reference[node[0]]).norm();
-				stiffness[node[0]] += share;
-				stiffness[node[1]] += share;
-			}
+		for (int e = a.firstEdge[b]; e < a.firstEdge[b + 1]; ++e) {
+			const auto& node  = a.edgeNodes[e];
+			const Real  share = stiffest[b] * a.thickness * (a.reference[node[1]] - a.reference[node[0]]).norm();
+			stiffness[node[0]] += share;
+			stiffness[node[1]] += share;
+		}
+	return stiffness;
 }
 
 Real contactEnergy(const BlockAssembly& a)

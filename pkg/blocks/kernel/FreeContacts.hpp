@@ -95,8 +95,8 @@ void advanceContacts(BlockAssembly&, Real dt, int threads = 1);
 /// Adds the contact forces on one block's grid points, in a fixed order.
 void gatherContactForces(const BlockAssembly&, int block, Vec2* force);
 
-/// Adds the share of contacts, those that touch and those that may, to the bound of nodalStiffness.
-void addContactStiffness(const BlockAssembly&, std::vector<Real>& stiffness);
+/// The share of contacts, of those that touch and those that may, in the bound of nodalStiffness [N/m].
+std::vector<Real> contactStiffness(const BlockAssembly&);
 
 Real contactEnergy(const BlockAssembly&);   ///< elastic energy of all contacts [J]
 Real contactFriction(const BlockAssembly&); ///< dissipated by friction in all contacts so far [J]

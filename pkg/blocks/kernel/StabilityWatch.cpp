@@ -14,11 +14,15 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 		turnover += g.workTurnover;
 	const Real loads = loadWork(a), energy = zoneEnergy(a) + jointEnergy(a) + kineticEnergy(a);
 	if (!begun) {
+		roundingEnergy = 0;
+		for (int block = 0; block < a.blockCount(); ++block)
+			for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z)
+				roundingEnergy += a.materials[a.blockMaterial[block]].young * a.zoneVolume[z] * roundingStrain * roundingStrain;
 		baseline = energy - groupWork(a) - loads;
 		begun    = true;
 	}
 	const Real excess = energy - groupWork(a) - loads - baseline;
-	const Real scale  = std::abs(baseline) + turnover + std::abs(loads);
+	const Real scale  = std::abs(baseline) + turnover + std::abs(loads) + roundingEnergy;
 	if (excess > tolerance * scale && lastExcess > tolerance * scale && excess > growth * lastExcess) {
 		int fastest = 0;
 		for (int n = 1; n < a.nodeCount(); ++n)
@@ -32,6 +36,7 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 		lastGood.velocity = a.velocity;
 		lastGood.points   = a.points;
 		lastGood.groups   = a.groups;
+		if (!a.contacts.order.empty()) lastGood.contacts = a.contacts, lastGood.segments = a.segments;
 	}
 	lastExcess = excess;
 	return {};
@@ -44,6 +49,7 @@ long StabilityWatch::restore(BlockAssembly& a) const
 	a.velocity = lastGood.velocity;
 	a.points   = lastGood.points;
 	a.groups   = lastGood.groups;
+	if (!lastGood.contacts.order.empty()) a.contacts = lastGood.contacts, a.segments = lastGood.segments;
 	return lastGood.step;
 }
 

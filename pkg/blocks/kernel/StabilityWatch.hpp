@@ -10,6 +10,8 @@ public:
 	/// Energy that nobody put in is suspicious from this share of what is and was in the system; elastic steps, breaking joints
 	/// and friction keep the balance far better.
 	static constexpr Real tolerance = 0.1;
+	/// Strain that is nothing but rounding (eps times specimen by zone is about 1e-14); its energy is no energy.
+	static constexpr Real roundingStrain = 1e-12;
 	/// ... and is an instability if it has grown by this factor since the last look: an unstable mode grows exponentially,
 	/// a velocity that a script has set does not.
 	static constexpr Real growth = 2;
@@ -35,11 +37,14 @@ private:
 		std::vector<Vec2>         position, velocity;
 		std::vector<ContactPoint> points;
 		std::vector<MotionGroup>  groups;
+		FreeContacts              contacts; ///< and the segments, whose areas end with their release; if there are any contacts
+		std::vector<Segment>      segments;
 	};
 	State lastGood;
 	bool  begun      = false;
 	Real  baseline   = 0; ///< energy at the first look less the work done by then [J]
 	Real  lastExcess = 0;
+	Real  roundingEnergy = 0; ///< [J]
 };
 
 } // namespace blocks

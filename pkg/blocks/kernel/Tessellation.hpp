@@ -14,13 +14,13 @@ enum class SizeMeaning { edge, sqrtArea };
 constexpr Real sqrtAreaOfUnitEdge = 1.61;
 
 struct TessellationOptions {
-	Real          size;                                  ///< mean cell size [m]; see `meaning`
-	SizeMeaning   meaning = SizeMeaning::sqrtArea;       ///< number of cells = area/size^2, or area/(1.61 size)^2
-	int           lloyd   = 2;                           ///< iterations: each seed moves to the centroid of its clipped cell
-	std::uint64_t seed    = 1;                           ///< of the random points; the same seed gives the same bits
+	Real          size;                            ///< mean cell size [m]; see `meaning`
+	SizeMeaning   meaning = SizeMeaning::sqrtArea; ///< number of cells = area/size^2, or area/(1.61 size)^2
+	int           lloyd   = 2;                     ///< iterations: each seed moves to the centroid of its clipped cell
+	std::uint64_t seed    = 1;                     ///< of the random points; the same seed gives the same bits
 	/// Edges shorter than this fraction of s are merged, and cells thinner than it flattened, where that is possible;
 	/// s = size (sqrtArea) or 1.61 size (edge), so that both meanings give the same cells. At 0 only what coincides is merged.
-	Real mergeFraction = 0.05;
+	Real              mergeFraction = 0.05;
 	std::vector<Vec2> seeds; ///< explicit points [m] instead of random ones, one a cell; then `size` is only the scale of merging
 };
 
@@ -38,7 +38,8 @@ struct Cells {
 ///  - Region corners (also those of 180 degrees) are vertices and never move. Vertices on an edge of the region stay
 ///    on it: exactly if it is parallel to an axis, else to the rounding of their coordinates.
 ///  - A Voronoi cell that a non-convex region cuts in pieces gives one cell a piece. A cell around a whole hole is cut
-///    in two through the hole. So there may be more cells than seeds; merging may leave fewer.
+///    in two through the hole, one that passes a reflex corner by a neck narrower than a short edge at that neck. So there
+///    may be more cells than seeds; merging may leave fewer.
 ///  - Cells are convex except at the region's own reflex corners; merging is refused where it would dent a cell by
 ///    more than 1e-9 s. Short edges are therefore rare, not impossible.
 Cells tessellate(const Polygon& region, const TessellationOptions& options);

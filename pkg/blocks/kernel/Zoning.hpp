@@ -25,7 +25,7 @@ Zones cornerZones(const Ring& ring);
 Zones regularZones(const Ring& ring, Real zoneSize);
 
 enum class Outline {
-	kept, ///< the outline's vertices exactly as given
+	kept, ///< the outline's vertices exactly as given; an edge much longer than zoneSize then carries one flat zone
 	split ///< outline edges longer than zoneSize divided into equal parts
 };
 

@@ -1,0 +1,129 @@
+# yade-blocks, GPL-2.0-or-later
+"""Compression of a masonry prism (paper, section 3.3; experiment of Oliveira 2003).
+
+Five bricks of 285 x 130 x 50 mm and four mortar joints of 10 mm, all made of Voronoi blocks, between smooth platens; the paper shows the
+lateral view, 130 mm wide. The top platen comes down at 0.01 mm/s. Stress is its force by its area, strain its path by the height.
+
+	scripts/run.sh compression [unitSize=0.01] [mortarSize=0.003] [residualFriction=zero|kept] [key=value ...]        about 10 s a seed
+
+Expected: strength 27.5 N/mm2, modulus 4100 N/mm2 (fitted between 5 % and 33 % of the strength), vertical splitting of the bricks.
+Size means the mean edge length, as in UDEC, unless sizeMeaning=sqrtArea. Tables 8 and 9 give a residual cohesion and no residual
+friction: residualFriction=zero takes that literally, kept leaves the friction angle as it is.
+halfRate=true repeats every run at half the loading rate and reports the change of the strength.
+"""
+from math import radians
+
+import numpy as np
+
+import yadeblocks
+from yade import *
+from yadeblocks import pictures, scenario
+from yadeblocks.export import BlocksExport
+from yadeblocks.progress import Progress, loadingLine
+from yadeblocks.results import Results
+from yadeblocks.specimen import nodesWhere, rectangle
+
+# ---- parameters (SI)
+
+brickHeight, mortarHeight, bricks, thickness = 0.05, 0.01, 5, 0.285 # [m]
+height = bricks * brickHeight + (bricks - 1) * mortarHeight
+brick = dict(young=20e9, poisson=0.2, density=2000) # Table 7
+mortar = dict(young=5.8e9, poisson=0.2, density=2000)
+mortarJoint = dict(kn=348e9, ks=174e9, frictionAngle=radians(15), cohesion=1.4e6, cohesionResidual=0.28e6, tension=0.7e6) # Table 8, also brick to mortar
+brickJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, cohesionResidual=3e6, tension=7.5e6) # Table 9
+velocity = 0.01e-3 # [m/s]
+
+common = scenario.commonParameters(sizeMeaning='edge', lloyd=1, steps=30000, alpha=0.2)
+del common['size']
+p = scenario.parameters(
+	{**common, 'unitSize': 0.01, 'mortarSize': 0.003, 'residualFriction': 'zero', 'width': 0.285, 'stroke': 3.6e-3, 'merge': 0.05, 'halfRate': False, 'vtk': True},
+	{'unitSize': scenario.Rule(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick'),
+	 'mortarSize': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than a mortar joint'),
+	 'residualFriction': ('zero', 'kept'), 'width': scenario.positive, 'stroke': scenario.positive,
+	 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')})
+if p.residualFriction == 'zero':
+	mortarJoint['frictionAngleResidual'] = brickJoint['frictionAngleResidual'] = 0
+area = p.width * thickness
+
+
+def build(seed):
+	"""The prism in the scene; every layer has a seed of its own."""
+	O.reset()
+	O.materials.append(BlockMat(label='unit', **brick))
+	O.materials.append(BlockMat(label='mortar', **mortar))
+	model, y = BlockModel(thickness=thickness, planeStress=p.plane == 'stress'), 0
+	for layer in range(2 * bricks - 1):
+		label, size, thick = ('mortar', p.mortarSize, mortarHeight) if layer % 2 else ('unit', p.unitSize, brickHeight)
+		model.addVoronoi(rectangle(0, y, p.width, y + thick), label, size=size, sizeMeaning=p.sizeMeaning, lloyd=p.lloyd, seed=1000 * seed + layer, mergeFraction=p.merge)
+		y += thick
+	model.bond()
+	bottom = nodesWhere(model, lambda x, y: y < 1e-9)
+	model.drive('bottom', bottom, 'y')
+	model.drive('centre', bottom[abs(model.reference[bottom, 0] - p.width / 2).argmin()], 'x') # keeps the prism from drifting sideways
+	model.drive('platen', nodesWhere(model, lambda x, y: y > height - 1e-9), 'y', velocity=-velocity, rampTime=0.05 * p.stroke / velocity)
+	model.insert()
+	return model
+
+
+def crush(seed, steps, label):
+	"""Presses until the stress has fallen to half the strength. The model and the columns: strain, stress [Pa], lateral strain of the middle brick, broken contact points, unbalanced ratio."""
+	model = build(seed)
+	middle = lambda x, y: abs(y - height / 2) < brickHeight / 2
+	left, right = nodesWhere(model, lambda x, y: middle(x, y) & (x < 1e-9)), nodesWhere(model, lambda x, y: middle(x, y) & (x > p.width - 1e-9))
+	history = []
+
+	def record():
+		stress = -model.groupForce('platen') / area
+		displacement = model.position[:, 0] - model.reference[:, 0]
+		history.append((-model.groupTravelled('platen') / height, stress, (displacement[right].mean() - displacement[left].mean()) / p.width,
+			np.count_nonzero(model.pointStatus), model.unbalancedRatio(floor=1e-3 * mortarJoint['tension'] * area)))
+		progress(O.iter)
+		if history[-1][3] and stress < 0.5 * max(h[1] for h in history): O.pause()
+
+	O.dt = p.stroke / velocity / steps
+	O.engines = [
+		InteractionLoop([Ig2_Block_Block_BlockGeom()],            # opening and slip
+		                [Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
+		                        JointMat(material1='unit', material2='unit', **brickJoint),
+		                        JointMat(material1='mortar', material2='mortar', **mortarJoint),
+		                        JointMat(material1='unit', material2='mortar', **mortarJoint)])],
+		                [Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
+		BlockTimeStepper(),                                        # scaled masses
+		BlockForces(),                                             # zones and joints, gathered node by node
+		BlockIntegrator(damping=p.damping, alpha=p.alpha),         # motion
+		PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
+	globals()['record'] = record
+	with Progress(steps, lambda: loadingLine(model.groupTravelled('platen'), history[-1][1], model), label=label) as progress:
+		O.run(steps, True)
+	return model, np.array(history).T
+
+
+# ---- running
+
+results = Results(p)
+for seed in p.seedList:
+	with results.run(seed) as run:
+		with run.stepping():
+			model, (strain, stress, lateral, broken, unbalanced) = crush(seed, p.steps, 'seed %d' % seed)
+		peak = stress.argmax()
+		elastic = (stress > 0.05 * stress[peak]) & (stress < 0.33 * stress[peak]) & (np.arange(len(stress)) < peak)
+		run.add('compressive_strength', 'MPa', stress[peak] / 1e6, 27.5, 'Oliveira 2003')
+		run.add('youngs_modulus', 'MPa', np.polyfit(strain[elastic], stress[elastic], 1)[0] / 1e6, 4100, 'Oliveira 2003')
+		run.add('strain_at_peak', '1', strain[peak])
+		run.add('lateral_strain_at_peak', '1', lateral[peak])
+		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
+		run.add('cracks_at_peak', '1', broken[peak])
+		run.curve(strain_permille=1e3 * strain, stress_MPa=stress / 1e6, lateral_permille=1e3 * lateral, broken=broken)
+		run.model(model, steps=O.iter)
+		run.quality(unbalanced_ratio_max=unbalanced[len(unbalanced) // 10:].max())
+	if seed == p.seed:
+		if p.vtk: BlocksExport(p.folder).write(model, O.time)
+		pictures.drawCracks(p.folder / 'cracks.png', model, title='Prism in compression, seed %d' % seed)
+	if p.halfRate:
+		slow = crush(seed, 2 * p.steps, 'seed %d, half rate' % seed)[1][1].max()
+		run.quality(half_rate_change=slow / stress[peak] - 1)
+
+results.write()
+pictures.drawCurve(p.folder / 'curve.png', results.curves, 'strain_permille', 'stress_MPa', labels=('strain [‰]', 'compressive stress [N/mm²]'),
+	title='Prism in compression', references=[pictures.Reference('strength, Oliveira 2003', 27.5)])
+scenario.waitIfBatch()
