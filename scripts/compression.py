@@ -36,7 +36,7 @@ velocity = 0.01e-3 # [m/s]
 common = scenario.commonParameters(sizeMeaning='edge', lloyd=1, steps=30000, alpha=0.2)
 del common['size']
 p = scenario.parameters(
-	{**common, 'unitSize': 0.01, 'mortarSize': 0.003, 'residualFriction': 'zero', 'width': 0.285, 'stroke': 3.6e-3, 'merge': 0.05, 'halfRate': False, 'vtk': True},
+	{**common, 'unitSize': 0.01, 'mortarSize': 0.003, 'residualFriction': 'zero', 'width': 0.285, 'stroke': 3.6e-3, 'merge': 0.1, 'halfRate': False, 'vtk': True},
 	{'unitSize': scenario.Rule(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick'),
 	 'mortarSize': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than a mortar joint'),
 	 'residualFriction': ('zero', 'kept'), 'width': scenario.positive, 'stroke': scenario.positive,

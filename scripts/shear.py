@@ -32,7 +32,7 @@ velocity = 0.2e-3 # [m/s]
 
 p = scenario.parameters(
 	{**scenario.commonParameters(size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, steps=40000), 'sigma': 0.5e6, 'stroke': 0.3e-3, 'pressSteps': 3000, 'brickZone': 8e-3,
-	 'merge': 0.05, 'halfRate': False, 'vtk': True},
+	 'merge': 0.1, 'halfRate': False, 'vtk': True},
 	{'sigma': scenario.notNegative, 'stroke': scenario.positive, 'pressSteps': scenario.atLeastOne, 'brickZone': scenario.positive,
 	 'size': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer'),
 	 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')})

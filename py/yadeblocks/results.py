@@ -166,7 +166,7 @@ class Results:
 		return pandas.concat([run.table for run in self.runs if run.table is not None], ignore_index=True)
 
 	def asDict(self):
-		"""result.json as a dictionary. Cost is that of the first run; of each quality the worst run's."""
+		"""result.json as a dictionary. Cost is that of the first run."""
 		costs = self.runs[0].costs if self.runs else {}
 		keys = "cpu_s wall_s steps us_per_step blocks nodes zones contacts peak_rss_mb threads".split()
 		qualities = "unbalanced_ratio_max half_rate_change energy_error".split()
@@ -176,8 +176,13 @@ class Results:
 		        "seed": getattr(self.parameters, "seed", None),
 		        "quantities": [quantity.asDict() for quantity in self.quantities],
 		        "cost": {**{key: costs.get(key) for key in keys}, **costs},
-		        "quality": {name: max((run.qualities[name] for run in self.runs if name in run.qualities), key=abs, default=None) for name in qualities},
+		        "quality": {name: self._quality(name) for name in qualities},
 		}
+
+	def _quality(self, name):
+		"""Of the worst run; but the change at half the rate is that of the mean, since single runs scatter."""
+		values = [run.qualities[name] for run in self.runs if name in run.qualities]
+		return None if not values else float(np.mean(values)) if name == "half_rate_change" else max(values, key=abs)
 
 	def report(self):
 		"""The table for the terminal: measured (with scatter), expected, error, source; then what the run cost."""

@@ -1,7 +1,6 @@
 # yade-blocks, GPL-2.0-or-later
 """The model's arrays in Python: views of its own memory, that keep it alive."""
 import gc
-import weakref
 
 import pytest
 
