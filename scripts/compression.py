@@ -82,6 +82,8 @@ def crush(seed, steps, label):
 
 	O.dt = p.stroke / velocity / steps
 	O.engines = [
+		BlockContacts(),                                           # broken joints may slide on, part and meet again
+		InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0),   # woken where something moved far enough
 		InteractionLoop([Ig2_Block_Block_BlockGeom()],            # opening and slip
 		                [Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
 		                        JointMat(material1='unit', material2='unit', **brickJoint),

@@ -72,6 +72,8 @@ def shear(seed, steps, label):
 
 	O.dt = O_dt
 	O.engines = [
+		BlockContacts(),                                           # broken joints may slide on, part and meet again
+		InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0),   # woken where something moved far enough
 		InteractionLoop([Ig2_Block_Block_BlockGeom()],            # opening and slip
 		                [Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
 		                        JointMat(material1='mortar', material2='mortar', **joint),

@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include "BlockEngines.hpp"
 #include <blocks/kernel/CentralDifference.hpp>
+#include <blocks/kernel/FreeContacts.hpp>
 #include <blocks/kernel/NodalForces.hpp>
 #include <blocks/kernel/TimeStep.hpp>
 #include <core/Body.hpp>
@@ -93,7 +94,7 @@ void BlockForces::gather()
 	}
 	if (dissipation.before.size() != a.points.size()) dissipation.start(a);
 	else dissipation.book(a);
-	scene->energy->set(dissipation.friction, "blockFriction", frictionId);
+	scene->energy->set(dissipation.friction + blocks::contactFriction(a), "blockFriction", frictionId);
 	scene->energy->set(dissipation.fracture, "blockFracture", fractureId);
 }
 

@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include "BlockGeom.hpp"
 #include <blocks/kernel/ContactKinematics.hpp>
+#include <blocks/kernel/FreeContacts.hpp>
 #include <blocks/kernel/NodalForces.hpp>
 
 namespace yade {
@@ -10,18 +11,31 @@ Ig2_Block_Block_BlockGeom::~Ig2_Block_Block_BlockGeom() = default;
 
 bool Ig2_Block_Block_BlockGeom::go(
         const shared_ptr<Shape>& shape1,
-        const shared_ptr<Shape>&,
+        const shared_ptr<Shape>& shape2,
         const State&,
         const State&,
         const Vector3r&,
         const bool&,
         const shared_ptr<Interaction>& interaction)
 {
-	const Block* block1 = static_cast<const Block*>(shape1.get());
-	if (!interaction->geom) return false; // bonded pairs have theirs from BlockModel::insert
-	blocks::BlockAssembly& a    = block1->model->assembly;
-	const blocks::Pair&    pair = a.pairs[static_cast<const BlockGeom*>(interaction->geom.get())->pair];
-	blocks::updateKinematics(a, pair.first, pair.last);
+	const Block*           block1 = static_cast<const Block*>(shape1.get());
+	const Block*           block2 = static_cast<const Block*>(shape2.get());
+	blocks::BlockAssembly& a      = block1->model->assembly;
+	auto*                  geom   = static_cast<BlockGeom*>(interaction->geom.get());
+	if (!geom) { // a pair that the collider has found; bonded ones have theirs from BlockModel::insert
+		const int contact = blocks::contactOf(a, block1->index, block2->index);
+		if (contact < 0) {
+			blocks::requestContact(a, block1->index, block2->index);
+			return false;
+		}
+		interaction->geom = shared_ptr<BlockGeom>(geom = new BlockGeom);
+		geom->model       = block1->model;
+		geom->contact     = contact;
+	}
+	if (geom->pair >= 0) blocks::updateKinematics(a, a.pairs[geom->pair].first, a.pairs[geom->pair].last);
+	if (a.contacts.order.empty()) return true;
+	geom->contact = blocks::contactOf(a, block1->index, block2->index, geom->contact);
+	if (geom->contact >= 0) blocks::updateContact(a, geom->contact);
 	return true;
 }
 
@@ -30,6 +44,7 @@ namespace {
 	{
 		if (!geom.model) throw std::runtime_error("BlockGeom.model is empty: it is made by BlockModel.insert");
 		py::list    list;
+		if (geom.pair < 0) return list;
 		const auto& a    = geom.model->assembly;
 		const auto& pair = a.pairs[geom.pair];
 		for (int i = 2 * pair.first; i < 2 * pair.last; ++i)
@@ -41,7 +56,28 @@ namespace {
 py::tuple BlockGeom::points() const
 {
 	const py::list indices = eachPoint(*this, [](const blocks::BlockAssembly&, int i) { return i; });
-	return py::make_tuple(indices[0], indices[-1] + 1);
+	return py::len(indices) ? py::make_tuple(indices[0], indices[-1] + 1) : py::make_tuple(0, 0);
+}
+
+py::list BlockGeom::ends() const
+{
+	py::list list;
+	if (!model || contact < 0 || contact >= int(model->assembly.contacts.all.size())) return list;
+	for (const auto& edges : model->assembly.contacts.all[contact].edges) {
+		if (!edges.active()) continue;
+		for (int k : { 0, 1 }) {
+			const auto end = blocks::contactEnd(model->assembly, edges, k);
+			py::dict   entry;
+			entry["position"] = Vector2r(end.position);
+			entry["normal"]   = Vector2r(end.normal);
+			entry["depth"]    = end.depth;
+			entry["sigma"]    = end.sigma;
+			entry["tau"]      = end.tau;
+			entry["area"]     = end.area;
+			list.append(entry);
+		}
+	}
+	return list;
 }
 
 py::list BlockGeom::positions() const

@@ -15,8 +15,10 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(BlockGeom, IGeom,
 		"Contact points between two blocks. Each segment, an overlap of two edges, has one at either end; their areas add up to the common surface.",
 		((shared_ptr<BlockModel>, model, , Attr::readonly, "The model that holds the points."))
-		((int, pair, -1, Attr::readonly, "Index of the pair of blocks in the model.")),
+		((int, pair, -1, Attr::readonly, "Index of the pair of bonded blocks in the model; -1: never bonded."))
+		((int, contact, -1, Attr::readonly, "Index of the pair's free contact in the model; -1: none (see :yref:`BlockContacts`).")),
 		createIndex();,
+		.add_property("ends", &BlockGeom::ends, "Free contact, edge by edge, two ends each: list of dictionaries with position [m], normal (out of the first block), depth [m], sigma, tau [Pa], area [m2].")
 		.add_property("points", &BlockGeom::points, "First and one-past-last contact point of the pair.")
 		.add_property("positions", &BlockGeom::positions, "Contact points, midway between the blocks [m].")
 		.add_property("normals", &BlockGeom::normals, "Unit normals at the contact points, out of the first block.")
@@ -28,6 +30,7 @@ public:
 	REGISTER_CLASS_INDEX(BlockGeom, IGeom);
 
 	py::tuple points() const;
+	py::list  ends() const;
 	py::list  positions() const, normals() const, areas() const, openings() const, slips() const;
 };
 REGISTER_SERIALIZABLE(BlockGeom);
@@ -41,7 +44,7 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC(Ig2_Block_Block_BlockGeom, IGeomFunctor,
-		"Opening and slip at the contact points of two bonded :yref:`blocks<Block>`, in a frame that turns with their edges (UDEC's point contacts; paper, section 2.2).");
+		"Opening and slip at the contact points of two bonded :yref:`blocks<Block>`, in a frame that turns with their edges (UDEC's point contacts; paper, section 2.2); with :yref:`BlockContacts`, depth and overlap of the edges of blocks that are not bonded, or no more.");
 	// clang-format on
 	FUNCTOR2D(Block, Block);
 	DEFINE_FUNCTOR_ORDER_2D(Block, Block);

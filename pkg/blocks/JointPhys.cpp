@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include "JointPhys.hpp"
+#include <blocks/kernel/FreeContacts.hpp>
 #include <blocks/kernel/NodalForces.hpp>
 #include <limits>
 
@@ -17,6 +18,13 @@ namespace {
 		blocks::require(angle >= 0 && angle < M_PI / 2, std::string("JointMat.") + name + " must lie in [0, pi/2) rad", angle);
 		return std::tan(angle);
 	}
+
+	/// What is left of a joint between blocks that were never bonded.
+	blocks::JointParams unbonded(blocks::JointParams p)
+	{
+		p.cohesionResidual = p.tensionResidual = 0;
+		return p;
+	}
 }
 
 blocks::JointParams JointMat::params() const
@@ -33,8 +41,7 @@ blocks::JointParams JointMat::params() const
 	p.tensionResidual  = tensionResidual;
 	if (dilationLimitSlip != -1) p.dilationLimitSlip = dilationLimitSlip;
 	blocks::validate(p);
-	if (!bonded) p.cohesionResidual = p.tensionResidual = 0; // a pair that was never bonded has no cohesion
-	return p;
+	return bonded ? p : unbonded(p);
 }
 
 void Ip2_BlockMat_BlockMat_JointPhys::go(const shared_ptr<Material>& material1, const shared_ptr<Material>& material2, const shared_ptr<Interaction>& interaction)
@@ -44,13 +51,15 @@ void Ip2_BlockMat_BlockMat_JointPhys::go(const shared_ptr<Material>& material1, 
 	auto        phys = shared_ptr<JointPhys>(new JointPhys);
 	phys->model      = geom->model;
 	phys->pair       = geom->pair;
+	phys->contact    = geom->contact;
 	interaction->phys = phys;
 
 	const string &a = material1->label, &b = material2->label;
 	for (const auto& joint : jointList) {
 		if (!((joint->material1 == a && joint->material2 == b) || (joint->material1 == b && joint->material2 == a))) continue;
 		try {
-			geom->model->setJoint(geom->pair, joint->params(), joint->bonded);
+			if (geom->pair >= 0) geom->model->setJoint(geom->pair, joint->params(), joint->bonded);
+			else blocks::setContactJoint(geom->model->assembly, geom->contact, unbonded(joint->params()));
 		} catch (const std::exception& error) { // changed after it was checked
 			geom->model->complain(error.what());
 		}
@@ -92,11 +101,16 @@ void Ip2_BlockMat_BlockMat_JointPhys::setJoints(const py::object& joints)
 	jointList = std::move(checked);
 }
 
-bool Law2_BlockGeom_JointPhys_MohrCoulomb::go(shared_ptr<IGeom>&, shared_ptr<IPhys>& phys, Interaction*)
+bool Law2_BlockGeom_JointPhys_MohrCoulomb::go(shared_ptr<IGeom>& geom, shared_ptr<IPhys>&, Interaction*)
 {
-	const auto* joint = static_cast<const JointPhys*>(phys.get());
-	blocks::advanceJoints(joint->model->assembly, joint->pair, blocks::advance);
-	return true;
+	const auto* g = static_cast<const BlockGeom*>(geom.get());
+	auto&       a = g->model->assembly;
+	if (g->pair >= 0) {
+		blocks::advanceJoints(a, g->pair, blocks::advance);
+		if (!a.contacts.releasable.empty()) blocks::watchForRelease(a, g->pair);
+	}
+	if (g->contact >= 0) blocks::advanceContact(a, g->contact, scene->dt);
+	return g->pair >= 0 || g->contact >= 0; // blocks that have parted are no more
 }
 
 YADE_PLUGIN((JointMat)(JointPhys)(Ip2_BlockMat_BlockMat_JointPhys)(Law2_BlockGeom_JointPhys_MohrCoulomb));

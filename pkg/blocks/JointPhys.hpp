@@ -47,14 +47,15 @@ public:
 	blocks::JointParams& joint() const
 	{
 		if (!model) throw std::runtime_error("JointPhys.model is empty: joints are made by Ip2_BlockMat_BlockMat_JointPhys");
-		return model->assembly.joints[pair];
+		return pair >= 0 ? model->assembly.joints[pair] : model->assembly.contacts.all.at(contact).joint;
 	}
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(JointPhys, IPhys,
 		"Joint of a pair of blocks: its properties, which may be set pair by pair (for example by region), and stresses at its contact points.",
 		((shared_ptr<BlockModel>, model, , Attr::readonly, "The model that holds the joint."))
-		((int, pair, -1, Attr::readonly, "Index of the pair of blocks in the model.")),
+		((int, pair, -1, Attr::readonly, "Index of the pair of bonded blocks in the model; -1: never bonded."))
+		((int, contact, -1, Attr::readonly, "Index of the free contact of a pair that was never bonded.")),
 		createIndex();,
 		.def(JointPhysPython())
 	);

@@ -356,8 +356,8 @@ TEST(FreeContacts, CornerHitsKeepTheEnergy)
 		for (int fine : { 0, 1 }) {
 			std::mt19937                         random(pose);
 			std::uniform_real_distribution<Real> u(-1, 1);
-			BlockAssembly                        a = scene(2e8);
-			const Ring target = randomPolygon(random, 0.8, 3 + pose % 5), shot = shifted(randomPolygon(random, 0.5, 3 + pose % 4), { 1.35, 0.5 * u(random) });
+			BlockAssembly                        a = scene(3e7);
+			const Ring target = randomPolygon(random, 0.8, 3 + pose % 5), shot = shifted(randomPolygon(random, 0.5, 3 + pose % 4), { 1.31, 0.5 * u(random) });
 			if (pose % 2) addFan(a, target);
 			else addRigid(a, target);
 			addFan(a, shot);
@@ -365,7 +365,7 @@ TEST(FreeContacts, CornerHitsKeepTheEnergy)
 			const Vec2 v(-0.4, 0.15 * u(random));
 			setVelocity(a, 1, v, u(random));
 			Real start = 0, last = 0, deepest = 0;
-			const long steps = long(3 / run.dt);
+			const long steps = long(2 / run.dt);
 			run.steps(steps, [&](Real energy) {
 				if (run.step == 1) start = energy;
 				last    = energy;
@@ -540,35 +540,42 @@ TEST(FreeContacts, FlatFloorFriction)
 
 TEST(FreeContacts, InclineHoldsAndLetsGo)
 {
-	// A box on a slope one degree below and one above its friction angle: it stays, or slides with g (sin - mu cos). Lowered gently
-	// with damping first. Staying: creep below 1e-6 of the sliding distance; sliding: within 1e-3 + the turn of d/L.
+	// A box on a slope one degree below its friction angle stays; one degree above it slides with g (sin - mu cos). Both start from
+	// rest on the lower slope. Staying: nothing but rounding and the last of the damped motion, < 1e-4 of what friction's springs
+	// give (4e-5 m). Sliding: the mean acceleration between two times; the box's bouncing on kn, which the sudden turn of gravity
+	// starts, adds a fraction of (period/duration) x (relative change of the normal force), 1e-3.
 	const Real g = 9.81, phi = 30 * degree;
-	for (Real above : { -1.0, 1.0 })
-		for (bool grid : { false, true }) {
-			const Real    slope = phi + above * degree;
-			BlockAssembly a     = scene(2e8);
-			if (grid) // a floor of several blocks
-				for (Real x = -2; x < 5; x += 0.9)
-					addRigid(a, box(x, -1, 0.9, 1));
-			else addRigid(a, box(-2, -1, 8, 1));
-			const int box1 = addGrid(a, { 0.05, 0 }, 1, 0.4, 3, 1);
-			Simulation run(a, frictional(1e8, 1e8, phi), 0.4, 0.3);
-			addGravity(a, { -g * std::sin(phi - 5 * degree), -g * std::cos(phi - 5 * degree) });
-			run.steps(6000);
-			std::fill(a.load.begin(), a.load.end(), Vec2::Zero());
-			std::fill(a.velocity.begin(), a.velocity.end(), Vec2::Zero());
-			addGravity(a, { -g * std::sin(slope), -g * std::cos(slope) });
-			run.damping.kind = Damping::Kind::none;
-			const Vec2 start = a.centroid(box1);
-			const Real time  = 0.25;
-			const Real before = run.step * run.dt;
-			run.steps(long(time / run.dt));
-			const Real t = run.step * run.dt - before, moved = start.x() - a.centroid(box1).x();
-			const Real expected = g * (std::sin(slope) - std::tan(phi) * std::cos(slope)) * t * t / 2;
-			std::printf("incline %+.0f degree, %s: moved %.3e, expected %.3e\n", above, grid ? "many blocks" : "one block", moved, std::max(expected, 0.));
-			if (above < 0) EXPECT_LT(std::abs(moved), 1e-5);
-			else EXPECT_NEAR(moved, expected, 0.02 * expected);
-		}
+	for (bool many : { false, true }) {
+		BlockAssembly a = scene(2e8);
+		if (many)
+			for (Real x = -4; x < 3; x += 0.9)
+				addRigid(a, box(x, -1, 0.9, 1));
+		else addRigid(a, box(-4, -1, 8, 1));
+		const int  mover = addGrid(a, { 0.05, 0 }, 1, 0.4, 3, 1);
+		Simulation run(a, frictional(1e8, 1e8, phi), 0.4, 0.3);
+		auto       tilt = [&](Real slope) {
+                        std::fill(a.load.begin(), a.load.end(), Vec2::Zero());
+                        addGravity(a, { -g * std::sin(slope), -g * std::cos(slope) });
+		};
+		tilt(0);
+		run.steps(10000);
+		tilt(phi - degree);
+		run.steps(20000);
+		const Vec2 start = a.centroid(mover);
+		run.damping.kind = Damping::Kind::none;
+		run.steps(10000);
+		const Real crept = (a.centroid(mover) - start).norm();
+		tilt(phi + degree);
+		run.steps(long(0.1 / run.dt));
+		const Real v = meanVelocity(a, mover).x();
+		const long n = long(0.8 / run.dt);
+		run.steps(n);
+		const Real acceleration = (v - meanVelocity(a, mover).x()) / (n * run.dt);
+		const Real expected     = g * (std::sin(phi + degree) - std::tan(phi) * std::cos(phi + degree));
+		std::printf("incline, %s: crept %.1e m; acceleration %.5f, expected %.5f\n", many ? "many blocks" : "one block", crept, acceleration, expected);
+		EXPECT_LT(crept, 4e-9);
+		EXPECT_NEAR(acceleration, expected, 0.01 * expected);
+	}
 }
 
 TEST(FreeContacts, BoxTopplesOverItsCorner)
@@ -763,7 +770,7 @@ TEST(FreeContacts, SameBitsWhateverThreadsAndOrder)
 	auto              run = [&](BlockAssembly& a, int threads) {
                 Simulation s(a, joint, 0.4);
                 s.threads = threads;
-                s.steps(3000);
+                s.steps(1000);
 	};
 	run(one, 1), run(two, 2), run(three, 3);
 	EXPECT_GT(contactFriction(one), 0);
@@ -774,14 +781,14 @@ TEST(FreeContacts, SameBitsWhateverThreadsAndOrder)
 	std::reverse(shuffled.contacts.all.begin(), shuffled.contacts.all.end());
 	shuffled.contacts.all.insert(shuffled.contacts.all.begin(), 3, FreeContact());
 	rebuildContacts(shuffled);
-	s.steps(3000, [&](Real) {
+	s.steps(1000, [&](Real) {
 		if (s.step % 7 == 0)
 			for (int i = shuffled.blockCount() - 1; i > 0; --i)
 				requestContact(shuffled, i, i / 2);
 	});
 	BlockAssembly often = heap(12);
 	Simulation    t(often, joint, 0.4);
-	t.steps(3000, [&](Real) {
+	t.steps(1000, [&](Real) {
 		if (t.step % 7 == 0)
 			for (int i = 1; i < often.blockCount(); ++i)
 				requestContact(often, i / 2, i);
@@ -812,4 +819,210 @@ TEST(FreeContacts, ContinuesFromWhatIsSaved)
 	run.steps(1000), again.steps(1000);
 	expectSameBits(a, b);
 	EXPECT_EQ(contactFriction(a), contactFriction(b));
+}
+
+// ---- whatever may come
+
+namespace {
+
+struct Stress {
+	int  poses = 0, touched = 0;
+	Real gain = 0; ///< worst, of what there was
+	long edgePairs = 0, active = 0;
+};
+
+/// Two random polygons each time: slivers, tiny edges, reentrant corners, shared vertices and edges, started in touch or overlapping.
+Stress stress(int count, int steps, unsigned seed)
+{
+	Stress                               result;
+	std::mt19937                         random(seed);
+	std::uniform_real_distribution<Real> u(-1, 1);
+	for (int pose = 0; pose < count; ++pose) {
+		auto polygon = [&] {
+			const int kind = int(random() % 5);
+			Ring      ring = randomPolygon(random, 0.5, 3 + int(random() % 6), kind == 0 ? 0.04 : 1);
+			if (kind == 1) { // a corner cut by a tiny edge
+				const size_t i = random() % ring.size(), n = ring.size();
+				const Vec2   p = ring[i], next = ring[(i + 1) % n], last = ring[(i + n - 1) % n];
+				ring[i]        = p + 1e-3 * (next - p);
+				ring.insert(ring.begin() + long(i), p + 1e-3 * (last - p));
+			}
+			if (kind == 2) { // a grid point in the middle of an edge
+				const size_t i = random() % ring.size();
+				ring.insert(ring.begin() + long(i) + 1, Vec2((ring[i] + ring[(i + 1) % ring.size()]) / 2));
+			}
+			if (kind == 3) { // a corner that bends inward a little
+				const size_t i = random() % ring.size();
+				const Vec2   p = ring[i], q = ring[(i + 1) % ring.size()], e = q - p;
+				ring.insert(ring.begin() + long(i) + 1, Vec2((p + q) / 2 + 0.05 * Vec2(-e.y(), e.x())));
+			}
+			return ring;
+		};
+		const Ring first  = polygon();
+		Ring       second = polygon();
+		const Vec2 apart(std::cos(6 * u(random)), std::sin(6 * u(random)));
+		switch (random() % 4) {
+			case 0: second = shifted(second, 0.9 * apart); break;
+			case 1: second = shifted(second, first[0] * 1.0 - second[second.size() / 2]); break; // vertex upon vertex
+			case 2: {                                                                            // its mirror image across an edge
+				const Vec2 p = first[0], e = (first[1] - first[0]).normalized();
+				second.clear();
+				for (auto it = first.rbegin(); it != first.rend(); ++it) {
+					const Vec2 d = *it - p;
+					second.push_back(p + 2 * d.dot(e) * e - d);
+				}
+				break;
+			}
+			default: second = shifted(second, 1.05 * apart);
+		}
+		BlockAssembly a = scene(5e7);
+		if (random() % 3) addFan(a, first);
+		else addRigid(a, first);
+		addFan(a, second);
+		Simulation run(a, frictional(1e6, 5e5, (pose % 3) * 15 * degree), 0.5);
+		for (int b : { 0, 1 })
+			if (a.firstZone[b] < a.firstZone[b + 1]) setVelocity(a, b, 0.5 * Vec2(u(random), u(random)) + (b ? -0.3 : 0.3) * apart, u(random));
+		Real start = 0, most = 0;
+		bool touched = false;
+		run.steps(steps, [&](Real energy) {
+			if (run.step == 0) start = energy;
+			most = std::max(most, energy);
+			for (int c : a.contacts.order)
+				for (const EdgePair& e : a.contacts.all[c].edges)
+					touched |= e.active(), ++result.edgePairs, result.active += e.active();
+		});
+		EXPECT_EQ(a.firstBadNode(), -1) << "pose " << pose;
+		const Real gain = most / start - 1;
+		if (gain > 0.01) std::printf("pose %d gains %.3f\n", pose, gain);
+		result.gain = std::max(result.gain, gain);
+		result.touched += touched;
+		++result.poses;
+	}
+	return result;
+}
+
+} // namespace
+
+TEST(FreeContacts, RandomPolygonsGainNoEnergy)
+{
+	const int    count = std::getenv("BLOCKS_STRESS") ? std::atoi(std::getenv("BLOCKS_STRESS")) : 200;
+	const Stress s     = stress(count, 1000, 21);
+	std::printf("stress: %d poses, %d touched, worst gain of energy %.1e; %.1f edge pairs, %.1f active\n", s.poses, s.touched, s.gain, Real(s.edgePairs) / s.poses / 1000, Real(s.active) / s.poses / 1000);
+	EXPECT_GT(s.touched, count / 2);
+	EXPECT_LT(s.gain, 0.01);
+}
+
+TEST(FreeContacts, SpinningTogetherMakesNoSlip)
+{
+	// Two blocks pressed together by stretched-free inertia would part, so they are rigid here, held 1e-3 into each other, and turned
+	// by ten turns as one: each step's velocity is that of its chord, so nothing but rounding may slip, and no friction be dissipated.
+	BlockAssembly a = scene();
+	addRigid(a, box(0, -1, 2, 1)), addRigid(a, box(0.4, -1e-3, 1, 1));
+	const JointParams joint = frictional(1e9, 1e9, 30 * degree);
+	const Real        step = 2 * M_PI / 1000;
+	Real              most = 0;
+	for (int i = 0; i < 10000; ++i) {
+		const auto before = a.position;
+		rotateAbout(a, { 0.7, 0.3 }, step, { 0, 0 });
+		for (int n = 0; n < a.nodeCount(); ++n) // the motion over the step, as seen half a step back: turned into the present by half a step
+			a.velocity[n] = a.position[n] - before[n];
+		computeAllForces(a, joint, 1, 1, i == 0);
+		if (i == 0)
+			for (int c : a.contacts.order)
+				for (EdgePair& e : a.contacts.all[c].edges)
+					e.slip = { 0, 0 };
+		for (int c : a.contacts.order)
+			for (const EdgePair& e : a.contacts.all[c].edges)
+				for (Real slip : e.slip)
+					most = std::max(most, std::abs(slip));
+	}
+	// chord instead of tangent: each step is off by d step^2/2, of one sign: 1e4 x 1e-3 x (6.3e-3)^2/2 = 2e-4 at 1000 steps a turn;
+	// without the turning of the frame it would be the friction limit, 5.8e-4, after a tenth of a turn.
+	EXPECT_LT(most, 2.2e-4);
+}
+
+TEST(FreeContacts, StiffnessIsBounded)
+{
+	// Heaps in any state: the largest eigenvalue of M^-1 K, from finite differences of the forces with friction sticking, must not exceed
+	// what nodalStiffness promises: omega dt <= 2 at the stable step. Rigid floor, soft zones so that contacts dominate.
+	Real worst = 0;
+	for (unsigned seed = 0; seed < 6; ++seed) {
+		std::mt19937  random(seed);
+		BlockAssembly a = scene(2e6);
+		addRigid(a, { { -2, -0.5 }, { 2, -0.5 }, { 2, 0.4 }, { 1, 0 }, { -1, 0 }, { -2, 0.4 } });
+		for (int i = 0; i < 5; ++i)
+			addFan(a, shifted(randomPolygon(random, 0.3, 3 + int(seed + i) % 4), { -0.8 + 0.45 * (i % 4), 0.32 + 0.5 * (i / 4) }));
+		addGravity(a, { 0, -9.81 });
+		const JointParams joint = frictional(2e6, 2e6, 40 * degree);
+		Simulation        run(a, joint, 0.4, 0.3);
+		run.steps(1500);
+		const auto        stiffness = nodalStiffness(a);
+		const Real        stable    = stableTimeStep(a, stiffness, a.mass), d = 1e-9;
+		std::vector<int>  free;
+		for (int n = 0; n < a.nodeCount(); ++n)
+			if (a.mass[n] > 0) free.push_back(2 * n), free.push_back(2 * n + 1);
+		const int       size = int(free.size());
+		Eigen::MatrixXd k(size, size);
+		auto            column = [&](int dof, Real by) {
+                        BlockAssembly b = a; // moved by `by` in one step of length 1, with friction that follows
+                        for (Vec2& v : b.velocity)
+                                v.setZero();
+                        b.position[dof / 2][dof % 2] += by;
+                        b.velocity[dof / 2][dof % 2] = by;
+                        JointParams rough = joint;
+                        rough.tanPhiResidual = 1e3;
+                        for (int c : b.contacts.order)
+                                b.contacts.all[c].joint = rough;
+                        advanceContacts(b, 1);
+                        gatherForces(b);
+                        return b.force;
+		};
+		for (int j = 0; j < size; ++j) {
+			const auto ahead = column(free[j], d), behind = column(free[j], -d);
+			for (int i = 0; i < size; ++i)
+				k(i, j) = (behind[free[i] / 2][free[i] % 2] - ahead[free[i] / 2][free[i] % 2]) / (2 * d)
+				        / std::sqrt(a.mass[free[i] / 2] * a.mass[free[j] / 2]);
+		}
+		const Real largest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>((k + k.transpose()) / 2, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+		worst              = std::max(worst, std::sqrt(largest) * stable / 2);
+	}
+	std::printf("omega dt / 2 at the stable step: %.3f at most\n", worst);
+	EXPECT_LT(worst, 1);
+	EXPECT_GT(worst, 0.3); // a bound that is far too large wastes time
+}
+
+TEST(FreeContacts, TriplePointsStayQuiet)
+{
+	// Bonded cells, squeezed: contacts between all pairs are asked for, as a collider would. Cells that share only a corner or have
+	// intact joints must not disturb each other: forces as without contacts, to the depth by size.
+	JointParams   joint = elasticJoint(1e9, 5e8);
+	joint.tanPhiResidual = 0.5;
+	BlockAssembly a = voronoi(1, 1, 4, 4, { 1e9, 0.2, 2000 }, joint, 1);
+	for (Vec2& p : a.position)
+		p.y() *= 1 - 1e-5;
+	BlockAssembly b = a;
+	enableRelease(b);
+	computeForces(a);
+	computeAllForces(b, joint, 0);
+	EXPECT_FALSE(b.contacts.order.empty());
+	const Real scale = largestForce(a);
+	for (int n = 0; n < a.nodeCount(); ++n)
+		EXPECT_LT((a.force[n] - b.force[n]).norm(), 1e-4 * scale) << n;
+}
+
+TEST(FreeContacts, NonConvexBlocksInterlock)
+{
+	// A block in the notch of another one: pushed to either side it is stopped by the notch's walls, with the area of the wall.
+	BlockAssembly a = scene();
+	addRigid(a, { { 0, 0 }, { 3, 0 }, { 3, 1 }, { 2, 1 }, { 2, 0.4 }, { 1, 0.4 }, { 1, 1 }, { 0, 1 } });
+	addRigid(a, box(1, 0.4, 1, 1));
+	const Real d = 1e-4;
+	for (const Vec2& push : { Vec2(d, 0), Vec2(-d, 0), Vec2(0, -d) }) {
+		BlockAssembly b = a;
+		moveBlock(b, 1, push);
+		computeAllForces(b, frictional(1e6, 1e6, 0), 0);
+		const Vec2 expected = -push * 1e6 * (push.x() != 0 ? 0.6 : 1); // kn d x the wall's height, or the notch's floor
+		// the other wall is parted by d; corners share within a few d; 100 d/L
+		EXPECT_LT((contactForce(b, 1) - expected).norm(), 0.01 * expected.norm()) << push.transpose();
+	}
 }

@@ -44,13 +44,15 @@ def test_notANumber(tmp_path):
 		assert here[name].tobytes() == whole[name].tobytes(), name
 
 
-def test_restIsStable():
-	"""Rounding doubles from look to look at first; it is no instability, however little energy there is to compare with."""
+@pytest.mark.parametrize('watchPeriod', [1, 10])
+@pytest.mark.parametrize('damping', ['none', 'local'])
+def test_restIsStable(watchPeriod, damping):
+	"""Neither rounding, which doubles from look to look at first, nor a motion that sets in, however little energy there is to compare with."""
 	materials()
 	m = column(heights=(0.2, 0.2, 0.2))
 	m.drive('later', nodesWhere(m, lambda x, y: y < 1e-9), 'y', velocity=1e-3, startTime=0.05, rampTime=0.1)
 	m.insert()
-	O.dt, O.engines = 1e-3, engines(strong(), watchPeriod=1)
+	O.dt, O.engines = 1e-3, engines(strong(), watchPeriod=watchPeriod, damping=damping)
 	O.run(300, True)
 	assert O.iter == 300
 

@@ -101,11 +101,11 @@ def test_refused(words, line, tmp_path):
 
 def test_underYadeBatch(tmp_path):
 	"""A line of a table, as yade-batch hands it over; text without quotes, * for what the line above says or the default."""
-	(tmp_path / 'jobs.table').write_text('description case size steps damping vtk\nfirst TT3 6e-3 400 local false\nsecond TT2b 7e-3 400 adaptive false\n')
+	(tmp_path / 'jobs.table').write_text('description case size steps damping vtk\nfirst TT3 6e-3 1000 local false\nsecond TT2b 7e-3 1000 adaptive false\n')
 	code, text, out = tension(tmp_path, env={'YADE_BATCH': 'jobs.table:3'})
 	assert code == 0, text[-3000:]
 	result = json.loads((out / 'tension-second' / 'result.json').read_text())
-	assert result['parameters'] | {'case': 'TT2b', 'size': 7e-3, 'steps': 400, 'damping': 'adaptive'} == result['parameters']
+	assert result['parameters'] | {'case': 'TT2b', 'size': 7e-3, 'steps': 1000, 'damping': 'adaptive'} == result['parameters']
 	assert not (out / 'tension-second' / 'blocks.pvd').exists()
 
 

@@ -5,9 +5,6 @@ namespace blocks {
 namespace {
 
 	constexpr Real wholeUpTo = 0.04, goneFrom = 6; ///< q between which a contact fades out
-	/// Slip is followed from this far beside the overlap, as a fraction of the shorter edge: many times the slip it takes to
-	/// build friction up (about the depth), so that friction stands fully where the overlap begins.
-	constexpr Real approach = 0.05;
 
 	/// smoothstep(s) and its derivative: 0 up to s = 0, 1 from s = 1.
 	struct Step {
@@ -20,6 +17,8 @@ namespace {
 		return { s * s * (3 - 2 * s), 6 * s * (1 - s) };
 	}
 
+	constexpr Real depthBlend = 0.25; ///< r/(dA + dB)
+
 	inline Vec2 turned(const Vec2& v) { return { -v.y(), v.x() }; }
 	inline Vec2 outward(const Vec2& e) { return { e.y(), -e.x() }; }
 	inline Real positive(Real v) { return v > 0 ? v : 0; }
@@ -28,7 +27,7 @@ namespace {
 
 void edgeGeometry(const FourPoints& p, const EdgeShape& shape, EdgeGeometry& g)
 {
-	g.state         = EdgeGeometry::State::apart;
+	g.active        = false;
 	const Vec2 &a0 = p[0], &a1 = p[1], &b0 = p[2], &b1 = p[3];
 	const Vec2  A = a1 - a0, B = b1 - b0;
 	const Real  facing = -A.dot(B);
@@ -58,19 +57,19 @@ void edgeGeometry(const FourPoints& p, const EdgeShape& shape, EdgeGeometry& g)
 		g.lambda[k]  = s.value;
 		g.slope[k]   = s.slope / (2 * shape.rounding[k]);
 		g.y -= g.lambda[k] * g.x[k];
-		square[k] = g.lambda[k] * g.depthA[k] * g.depthA[k] + (1 - g.lambda[k]) * g.depthB[k] * g.depthB[k];
+		const Real r = depthBlend * (g.depthA[k] + g.depthB[k]);
+		const Step m = r > 0 ? smoothstep((g.x[k] / r + 1) / 2) : Step { s.value, 0 };
+		g.mu[k]      = m.value;
+		g.muSlope[k] = m.slope / 2;
+		square[k]    = m.value * g.depthA[k] * g.depthA[k] + (1 - m.value) * g.depthB[k] * g.depthB[k];
 		g.sum += square[k];
 	}
-	if (!(g.sum > 0) || g.y * std::max(g.invA, g.invB) < -approach) return;
-
-	g.state   = EdgeGeometry::State::near;
-	g.depth   = { std::sqrt(square[0]), std::sqrt(square[1]) };
-	g.area    = 0;
-	const Real rho  = shape.farRounding[g.x[0] < g.x[1] ? 0 : 1]; // of the vertices that meet where the overlap ends
+	if (!(g.sum > 0)) return;
+	const Real rho = shape.farRounding[g.x[0] < g.x[1] ? 0 : 1]; // of the vertices that meet where the overlap ends
+	if (g.y <= -rho) return;
 	const Step ramp = smoothstep((g.y / rho + 1) / 2);
 	g.length        = g.y * ramp.value;
 	g.lengthSlope   = ramp.value + g.y * ramp.slope / (2 * rho);
-	if (g.y <= -rho) return;
 
 	const Real overlap = positive(g.y);
 	g.reach            = { overlap - (1 - g.lambda[0]) * g.x[0], overlap - (1 - g.lambda[1]) * g.x[1], overlap + g.lambda[1] * g.x[1], overlap + g.lambda[0] * g.x[0] };
@@ -86,7 +85,8 @@ void edgeGeometry(const FourPoints& p, const EdgeShape& shape, EdgeGeometry& g)
 	g.h             = 1 - fade.value;
 	g.hSlope        = -fade.slope / (goneFrom - wholeUpTo);
 	g.area          = g.c * g.c * positive(g.length) * positive(g.h + g.q * g.hSlope) / 2;
-	g.state         = EdgeGeometry::State::active;
+	g.depth         = { std::sqrt(square[0]), std::sqrt(square[1]) };
+	g.active        = true;
 }
 
 Real edgePotential(const EdgeGeometry& g) { return g.c * g.c * g.length * g.sum * g.h / 4; }
@@ -98,9 +98,13 @@ void addNormalForces(const FourPoints& p, const EdgeShape& shape, const EdgeGeom
 	const Real  bySum = wL * (g.h + g.q * g.hSlope); // dU/d(sum), by way of q too
 	const Real  byC   = scale * g.c / 2 * g.length * g.sum * g.h;
 	Real        byY   = w * g.sum * g.h * g.lengthSlope;
-	Real        byX[2] = { 0, 0 };
+	Real        byX[2] = { 0, 0 }, byR[2] = { 0, 0 };
 	for (int k : { 0, 1 })
-		byX[k] = bySum * g.slope[k] * (g.depthA[k] * g.depthA[k] - g.depthB[k] * g.depthB[k]);
+		if (g.muSlope[k] != 0) {
+			const Real r = depthBlend * (g.depthA[k] + g.depthB[k]);
+			byX[k]       = bySum * g.muSlope[k] / r * (g.depthA[k] * g.depthA[k] - g.depthB[k] * g.depthB[k]);
+			byR[k]       = -byX[k] * g.x[k] / r * depthBlend; // by either depth, both of which are positive here
+		}
 
 	if (g.hSlope != 0) {
 		const Real byQ = wL * g.sum * g.hSlope;
@@ -127,8 +131,8 @@ void addNormalForces(const FourPoints& p, const EdgeShape& shape, const EdgeGeom
 	byAngleB += turn;
 
 	const Vec2 mA = outward(g.eA), mB = outward(g.eB);
-	const Real fA[2] = { 2 * bySum * g.lambda[0] * g.depthA[0], 2 * bySum * g.lambda[1] * g.depthA[1] };
-	const Real fB[2] = { 2 * bySum * (1 - g.lambda[0]) * g.depthB[0], 2 * bySum * (1 - g.lambda[1]) * g.depthB[1] };
+	const Real fA[2] = { 2 * bySum * g.mu[0] * g.depthA[0] + byR[0], 2 * bySum * g.mu[1] * g.depthA[1] + byR[1] };
+	const Real fB[2] = { 2 * bySum * (1 - g.mu[0]) * g.depthB[0] + byR[0], 2 * bySum * (1 - g.mu[1]) * g.depthB[1] + byR[1] };
 	// depthA_k = (b0 - a_k).mB, depthB_0 = (a0 - b1).mA, depthB_1 = (a0 - b0).mA; an edge that turns by 1 turns its normal by e
 	ga0 += (fB[0] + fB[1]) * mA - fA[0] * mB;
 	ga1 -= fA[1] * mB;
@@ -147,15 +151,15 @@ void addNormalForces(const FourPoints& p, const EdgeShape& shape, const EdgeGeom
 EdgeEnd edgeEnd(const FourPoints& p, const EdgeGeometry& g, int k)
 {
 	const Vec2 &a0 = p[0], &a1 = p[1], &b0 = p[2], &b1 = p[3];
-	const Real  lambda = g.lambda[k];
+	const Real  mu = g.mu[k];
 	// shares of the far vertex in the end's points; the near ones are a0, b1 at end 0 and a1, b0 at end 1
-	const Real farA = -(1 - lambda) * g.x[k] * 2 / g.bisector * g.invA, farB = lambda * g.x[k] * 2 / g.bisector * g.invB;
+	const Real farA = -(1 - mu) * g.x[k] * 2 / g.bisector * g.invA, farB = mu * g.x[k] * 2 / g.bisector * g.invB;
 	const int  nearA = k == 0 ? 0 : 1, nearB = k == 0 ? 3 : 2;
 
 	EdgeEnd end;
 	end.onA       = p[nearA] + farA * (k == 0 ? Vec2(a1 - a0) : Vec2(a0 - a1));
 	end.onB       = p[nearB] + farB * (k == 0 ? Vec2(b0 - b1) : Vec2(b1 - b0));
-	end.direction = (1 - lambda) * g.eA - lambda * g.eB;
+	end.direction = (1 - mu) * g.eA - mu * g.eB;
 
 	const Vec2 &d = end.direction, gap = end.onB - end.onA;
 	end.slipGradient[nearA]     = -(1 - farA) * d;
@@ -164,7 +168,7 @@ EdgeEnd edgeEnd(const FourPoints& p, const EdgeGeometry& g, int k)
 	end.slipGradient[5 - nearB] = farB * d;
 	// the direction turns with the edges that it is made of
 	const Vec2 tA = turned(g.eA), tB = turned(g.eB);
-	const Vec2 coupleA = (1 - lambda) * gap.dot(tA) * g.invA * tA, coupleB = -lambda * gap.dot(tB) * g.invB * tB;
+	const Vec2 coupleA = (1 - mu) * gap.dot(tA) * g.invA * tA, coupleB = -mu * gap.dot(tB) * g.invB * tB;
 	end.slipGradient[0] -= coupleA;
 	end.slipGradient[1] += coupleA;
 	end.slipGradient[2] -= coupleB;

@@ -1,7 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
 #include "Types.hpp"
-#include <cstdint>
 
 /// Contact of two boundary edges A = a0 -> a1 and B = b0 -> b1 that need not be joined, parallel or of equal length.
 ///
@@ -9,10 +8,13 @@
 /// ends. At each end the depth is that of the vertex which is the end, under the line of the other edge. With W = (-e_A.e_B)^2,
 ///   U = 1/4 kn T W L (d0^2 + d1^2) h(q),   L = hi - lo,
 /// and forces are -grad U, all terms included: frictionless contact neither makes nor loses energy. Parallel edges give the
-/// point law, kn d (T L/2) at each end. What would jump is blended within a length rho << L:
-///   x0 = (a0 - b1).t, x1 = (b0 - a1).t (positive where A's vertex is the end), lambda_k = smoothstep((x_k/rho + 1)/2),
-///   d_k^2 = lambda_k dA_k^2 + (1 - lambda_k) dB_k^2,   y = (b0 - b1).t - lambda_0 x0 - lambda_1 x1,   L = y smoothstep((y/rho + 1)/2);
-/// rho belongs to the two vertices that meet, so what one of two collinear edges loses the other gains.
+/// point law, kn d (T L/2) at each end. What would jump is blended. With x0 = (a0 - b1).t, x1 = (b0 - a1).t (positive where A's
+/// vertex is the end) and lambda_k = smoothstep((x_k/rho + 1)/2), the overlap is
+///   y = (b0 - b1).t - lambda_0 x0 - lambda_1 x1,   L = y smoothstep((y/rho + 1)/2);
+/// rho << L belongs to the two vertices that meet, so what one of two collinear edges loses the other gains. The depth is
+///   d_k^2 = mu_k dA_k^2 + (1 - mu_k) dB_k^2,   mu_k = smoothstep((x_k/r_k + 1)/2),   r_k = (dA_k + dB_k)/4.
+/// Within a length that does not shrink with the depth, the vertex that is not the end would lie far deeper under the other
+/// edge's line than any vertex does: a bump of height rho where a corner passes from one block to the next.
 /// h fades a contact out where its depth stops being one: beyond the bisector of a corner, and half-way into the block:
 ///   q = (d0^2 + d1^2)/2 (sum over the corners of 1/(X tan(beta/2))^2 + 6/limit^2),
 /// X the distance from the corner to the far end of the overlap, beta the angle of the material there. h is 1 up to q = 0.04, 0 from q = 6.
@@ -28,17 +30,13 @@ struct EdgeShape {
 
 /// Where two edges are with respect to each other.
 struct EdgeGeometry {
-	enum class State : std::uint8_t {
-		apart,
-		near,  ///< deep enough but beside each other: carries nothing, but its slip is followed
-		active ///< carries forces
-	};
-	State               state = State::apart;
+	bool                active = false;   ///< whether they touch; the rest counts only if they do
 	Vec2                eA, eB, t;        ///< unit vectors
 	Real                invA, invB;       ///< 1/length [1/m]
 	Real                c, bisector;      ///< -e_A.e_B; |e_A - e_B|
 	std::array<Real, 2> x;                ///< lead of A's vertex over B's at either end [m]
-	std::array<Real, 2> lambda, slope;    ///< share of A's vertex in the end, and its derivative [1/m]
+	std::array<Real, 2> lambda, slope;    ///< share of A's vertex in the length's end, and its derivative [1/m]
+	std::array<Real, 2> mu, muSlope;      ///< ... in the depth; derivative by x/r [-]
 	std::array<Real, 2> depthA, depthB;   ///< of A's and B's vertices, not negative [m]
 	std::array<Real, 2> depth;            ///< of the two ends [m]
 	Real                y;                ///< overlap; negative if there is none [m]

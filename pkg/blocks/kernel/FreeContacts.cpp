@@ -367,7 +367,7 @@ void advanceContact(BlockAssembly& a, int contact, Real dt)
 	const JointParams& joint = c.joint;
 	for (EdgePair& e : c.edges) {
 		const EdgeGeometry& g = e.geometry;
-		if (g.state == EdgeGeometry::State::apart) {
+		if (!g.active) {
 			if (e.area > 0) c.friction += shearEnergy(c, e);
 			e.slip = e.sigma = e.tau = { 0, 0 };
 			e.area                   = 0;
@@ -375,30 +375,28 @@ void advanceContact(BlockAssembly& a, int contact, Real dt)
 		}
 		const FourPoints x    = corners(a, e);
 		const Real       area = a.thickness * g.area;
-		const bool       active = e.active();
-		if (active) {
-			e.force.fill(Vec2::Zero());
-			addNormalForces(x, e.shape, g, joint.kn * a.thickness, e.force);
-		}
+		e.force.fill(Vec2::Zero());
+		addNormalForces(x, e.shape, g, joint.kn * a.thickness, e.force);
+		// where the area changes the springs keep their energy, so that a contact which grows and shrinks neither makes nor wears any
+		const Real regrown = area > 0 ? std::sqrt(e.area / area) : 0;
 		for (int k : { 0, 1 }) {
-			const Real before = e.slip[k], pressure = joint.kn * g.depth[k];
-			Real       ds = 0;
-			EdgeEnd    end;
-			if (pressure > 0) {
-				end = edgeEnd(x, g, k);
+			const Real pressure = joint.kn * g.depth[k], before = joint.ks * e.area * e.slip[k] * e.slip[k] / 2;
+			Real       work = 0;
+			if (pressure > 0 && area > 0) {
+				const EdgeEnd end = edgeEnd(x, g, k);
+				Real          ds  = 0;
 				for (int i = 0; i < 4; ++i)
 					ds += dt * end.slipGradient[i].dot(a.velocity[e.node[i]]);
-				const Real limit = (joint.cohesionResidual + pressure * joint.tanPhiResidual) / joint.ks;
-				e.slip[k]        = std::clamp(before + ds, -limit, limit);
-			} else e.slip[k] = 0;
-			const Real drag = joint.ks * area * e.slip[k], dragBefore = joint.ks * e.area * before;
-			if (drag != 0)
+				const Real old = e.slip[k] * regrown, limit = (joint.cohesionResidual + pressure * joint.tanPhiResidual) / joint.ks;
+				e.slip[k]      = std::clamp(old + ds, -limit, limit);
+				const Real drag = joint.ks * area * e.slip[k];
+				work            = (joint.ks * area * old + drag) / 2 * ds;
 				for (int i = 0; i < 4; ++i)
 					e.force[i] -= drag * end.slipGradient[i];
-			if (drag != 0 || dragBefore != 0) // what the spring took in over the step, less what it holds more than before
-				c.friction += (drag + dragBefore) / 2 * ds - (drag * e.slip[k] - dragBefore * before) / 2;
-			e.sigma[k] = active ? -pressure : 0;
-			e.tau[k]   = active ? joint.ks * e.slip[k] : 0;
+			} else e.slip[k] = 0;
+			c.friction += work + before - joint.ks * area * e.slip[k] * e.slip[k] / 2;
+			e.sigma[k] = -pressure;
+			e.tau[k]   = joint.ks * e.slip[k];
 		}
 		e.area = area;
 	}

@@ -27,7 +27,7 @@ struct EdgePair {
 	FourPoints          force;          ///< on the four nodes; meaningful if the pair is active [N]
 	EdgeShape           shape;
 
-	bool active() const { return geometry.state == EdgeGeometry::State::active; }
+	bool active() const { return geometry.active; }
 };
 
 /// All that happens between two blocks, apart from their bonds.
