@@ -136,7 +136,7 @@ namespace {
 	}
 }
 
-void BlockModel::claim(const blocks::Polygon& region)
+void BlockModel::requireFree(const blocks::Polygon& region) const
 {
 	using Box        = Eigen::AlignedBox<Real, 2>;
 	auto boxOf       = [](const blocks::Polygon& polygon) {
@@ -150,7 +150,6 @@ void BlockModel::claim(const blocks::Polygon& region)
 	for (size_t i = 0; i < regions.size(); ++i)
 		if (box.intersects(boxOf(regions[i])) && (enters(region, regions[i], reach) || enters(regions[i], region, reach)))
 			throw std::invalid_argument("regions must not overlap: the new one overlaps region " + std::to_string(i) + " (the first is 0)");
-	regions.push_back(region);
 }
 
 void BlockModel::requireOpen(const char* what) const

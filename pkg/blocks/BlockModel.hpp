@@ -49,8 +49,10 @@ public:
 	/// One Body per block and one Interaction per pair, into the present scene.
 	void insert();
 
-	/// Takes note of a region, and refuses one that overlaps another.
-	void claim(const blocks::Polygon&);
+	/// Refuses a region that overlaps one that was added before.
+	void requireFree(const blocks::Polygon&) const;
+	/// Takes note of a region that was added.
+	void claim(const blocks::Polygon& region) { regions.push_back(region); }
 
 	/// Refuses changes of what was already handed over to the scene.
 	void requireOpen(const char* what) const;

@@ -73,7 +73,10 @@ namespace {
 		options.seeds   = ring(seeds);
 		if (!(mergeFraction < 0)) options.mergeFraction = mergeFraction;
 		const blocks::Polygon region = polygon(outer, holes);
-		const blocks::Cells   cells  = blocks::tessellate(region, options);
+		blocks::requireSimple(region, "region");
+		model.requireFree(region);
+		const blocks::Cells cells = blocks::tessellate(region, options);
+		if (zoning != "fan" && zoning != "corners") zonesOf({}, zoning); // refuses before anything is added
 		model.claim(region);
 
 		const int first = model.assembly.blockCount();
@@ -94,7 +97,8 @@ namespace {
 		const int       material_ = model.materialIndex(material);
 		blocks::Polygon region    = polygon(outer, holes);
 		blocks::requireSimple(region, "region");
-		model.claim(region);
+		model.requireFree(region);
+		const blocks::Polygon claimed = region;
 		BlockAssembly&  a = model.assembly;
 		blocks::Outline outline = blocks::Outline::split;
 		if (conforming) { // the neighbours' boundary points become this block's own
@@ -110,7 +114,9 @@ namespace {
 		if (zoning == "regular") zones = blocks::regularZones(region.outer, zoneSize);
 		else if (zoning == "delaunay") zones = blocks::delaunayZones(region, zoneSize, outline);
 		else zones = zonesOf(region.outer, zoning);
-		return a.addBlock(zones.points, zones.rings, zones.triangles, material_);
+		const int block = a.addBlock(zones.points, zones.rings, zones.triangles, material_);
+		model.claim(claimed);
+		return block;
 	}
 
 	int bond(BlockModel& model, Real tolerance)

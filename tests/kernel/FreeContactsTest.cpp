@@ -858,8 +858,17 @@ Stress stress(int count, int steps, unsigned seed)
 			}
 			return ring;
 		};
-		const Ring first  = polygon();
-		Ring       second = polygon();
+		auto usable = [](const Ring& ring) { // addFan's zones must not overlap
+			const Vec2 inner = 0.9 * mean(ring) + 0.1 * ring[0];
+			for (size_t i = 0; i < ring.size(); ++i)
+				if (cross(ring[i] - inner, ring[(i + 1) % ring.size()] - inner) <= 0) return false;
+			return true;
+		};
+		Ring first = polygon(), second = polygon();
+		while (!usable(first))
+			first = polygon();
+		while (!usable(second))
+			second = polygon();
 		const Vec2 apart(std::cos(6 * u(random)), std::sin(6 * u(random)));
 		switch (random() % 4) {
 			case 0: second = shifted(second, 0.9 * apart); break;
@@ -871,6 +880,7 @@ Stress stress(int count, int steps, unsigned seed)
 					const Vec2 d = *it - p;
 					second.push_back(p + 2 * d.dot(e) * e - d);
 				}
+				if (!usable(second)) second = shifted(box(0, 0, 0.3, 0.4), first[0]); // another inner point
 				break;
 			}
 			default: second = shifted(second, 1.05 * apart);
@@ -908,37 +918,30 @@ TEST(FreeContacts, RandomPolygonsGainNoEnergy)
 	const int    count = std::getenv("BLOCKS_STRESS") ? std::atoi(std::getenv("BLOCKS_STRESS")) : 200;
 	const Stress s     = stress(count, 1000, 21);
 	std::printf("stress: %d poses, %d touched, worst gain of energy %.1e; %.1f edge pairs, %.1f active\n", s.poses, s.touched, s.gain, Real(s.edgePairs) / s.poses / 1000, Real(s.active) / s.poses / 1000);
-	EXPECT_GT(s.touched, count / 2);
+	EXPECT_GT(s.touched, count / 3);
 	EXPECT_LT(s.gain, 0.01);
 }
 
 TEST(FreeContacts, SpinningTogetherMakesNoSlip)
 {
-	// Two blocks pressed together by stretched-free inertia would part, so they are rigid here, held 1e-3 into each other, and turned
-	// by ten turns as one: each step's velocity is that of its chord, so nothing but rounding may slip, and no friction be dissipated.
+	// Two rigid blocks, 1e-3 into each other, turn by ten turns as one, in coarse steps: slip of 1e4 steps' rounding only. Without
+	// the frame's own turning it would reach the friction limit, 5.8e-4, after a tenth of a turn.
 	BlockAssembly a = scene();
 	addRigid(a, box(0, -1, 2, 1)), addRigid(a, box(0.4, -1e-3, 1, 1));
 	const JointParams joint = frictional(1e9, 1e9, 30 * degree);
-	const Real        step = 2 * M_PI / 1000;
 	Real              most = 0;
 	for (int i = 0; i < 10000; ++i) {
 		const auto before = a.position;
-		rotateAbout(a, { 0.7, 0.3 }, step, { 0, 0 });
-		for (int n = 0; n < a.nodeCount(); ++n) // the motion over the step, as seen half a step back: turned into the present by half a step
+		rotateAbout(a, { 0.7, 0.3 }, 2 * M_PI / 1000, { 0, 0 });
+		for (int n = 0; n < a.nodeCount(); ++n)
 			a.velocity[n] = a.position[n] - before[n];
 		computeAllForces(a, joint, 1, 1, i == 0);
-		if (i == 0)
-			for (int c : a.contacts.order)
-				for (EdgePair& e : a.contacts.all[c].edges)
-					e.slip = { 0, 0 };
-		for (int c : a.contacts.order)
-			for (const EdgePair& e : a.contacts.all[c].edges)
-				for (Real slip : e.slip)
-					most = std::max(most, std::abs(slip));
+		for (const EdgePair& e : a.contacts.all[0].edges)
+			if (e.area > 1e-9) // edges at right angles face each other by rounding, with an area of rounding squared
+				most = std::max({ most, std::abs(e.slip[0]), std::abs(e.slip[1]) });
 	}
-	// chord instead of tangent: each step is off by d step^2/2, of one sign: 1e4 x 1e-3 x (6.3e-3)^2/2 = 2e-4 at 1000 steps a turn;
-	// without the turning of the frame it would be the friction limit, 5.8e-4, after a tenth of a turn.
-	EXPECT_LT(most, 2.2e-4);
+	EXPECT_EQ(a.contacts.order.size(), 1u);
+	EXPECT_LT(most, 1e4 * 10 * eps);
 }
 
 TEST(FreeContacts, StiffnessIsBounded)

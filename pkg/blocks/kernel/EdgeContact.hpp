@@ -31,7 +31,7 @@ struct EdgeShape {
 /// Where two edges are with respect to each other.
 struct EdgeGeometry {
 	bool                active = false;   ///< whether they touch; the rest counts only if they do
-	Vec2                eA, eB, t;        ///< unit vectors
+	Vec2                eA { 0, 0 }, eB { 0, 0 }, t { 0, 0 }; ///< unit vectors
 	Real                invA, invB;       ///< 1/length [1/m]
 	Real                c, bisector;      ///< -e_A.e_B; |e_A - e_B|
 	std::array<Real, 2> x;                ///< lead of A's vertex over B's at either end [m]

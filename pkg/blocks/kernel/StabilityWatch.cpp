@@ -20,10 +20,12 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 				roundingEnergy += a.materials[a.blockMaterial[block]].young * a.zoneVolume[z] * roundingStrain * roundingStrain;
 		baseline = energy - groupWork(a) - loads;
 		begun    = true;
+		compared = step;
 	}
 	const Real excess = energy - groupWork(a) - loads - baseline;
 	const Real scale  = std::abs(baseline) + turnover + std::abs(loads) + roundingEnergy;
-	if (excess > tolerance * scale && lastExcess > tolerance * scale && excess > growth * lastExcess) {
+	const bool compare = step - compared >= leastInterval;
+	if (compare && excess > tolerance * scale && lastExcess > tolerance * scale && excess > growth * lastExcess) {
 		int fastest = 0;
 		for (int n = 1; n < a.nodeCount(); ++n)
 			if (a.inertia[n] * a.velocity[n].squaredNorm() > a.inertia[fastest] * a.velocity[fastest].squaredNorm()) fastest = n;
@@ -38,7 +40,7 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 		lastGood.groups   = a.groups;
 		if (!a.contacts.order.empty()) lastGood.contacts = a.contacts, lastGood.segments = a.segments;
 	}
-	lastExcess = excess;
+	if (compare) lastExcess = excess, compared = step;
 	return {};
 }
 

@@ -16,6 +16,9 @@ public:
 	/// a velocity that a script has set does not.
 	static constexpr Real growth = 2;
 
+	/// Steps between two looks that are compared: work is booked half a step late, which counts while a motion sets in.
+	static constexpr long leastInterval = 20;
+
 	struct Verdict {
 		bool        stable = true;
 		int         block  = -1; ///< the one that moves fastest, or the first that is not a number
@@ -44,6 +47,7 @@ private:
 	bool  begun      = false;
 	Real  baseline   = 0; ///< energy at the first look less the work done by then [J]
 	Real  lastExcess = 0;
+	long  compared   = 0; ///< step of lastExcess
 	Real  roundingEnergy = 0; ///< [J]
 };
 
