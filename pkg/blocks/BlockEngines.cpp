@@ -61,7 +61,7 @@ void BlockTimeStepper::adjust(Scene* scene)
 	if (model.stiffnessVersion() == doneVersion && scene->dt == doneDt && safety == doneSafety && quasiStatic == doneQuasiStatic) return;
 	blocks::require(safety > 0 && safety <= 0.95, "BlockTimeStepper.safety must lie in (0, 0.95]", safety);
 
-	const auto stiffness = blocks::nodalStiffness(model.assembly);
+	const auto& stiffness = model.stiffness();
 	stableStep           = blocks::stableTimeStep(model.assembly, stiffness, model.assembly.mass);
 	if (quasiStatic) {
 		blocks::require(scene->dt > 0 && std::isfinite(scene->dt), "O.dt must be positive and finite [s]", scene->dt);
@@ -123,7 +123,7 @@ void BlockIntegrator::checkStep(BlockModel& model)
 			throw std::runtime_error("the joint between blocks " + std::to_string(a.pairs[pair].block[0]) + " and " + std::to_string(a.pairs[pair].block[1])
 			                         + " has no properties: O.engines needs an InteractionLoop with Ip2_BlockMat_BlockMat_JointPhys before BlockIntegrator");
 	blocks::require(scene->dt > 0 && std::isfinite(scene->dt), "O.dt must be positive and finite [s]", scene->dt);
-	const Real share = scene->dt / blocks::stableTimeStep(a, blocks::nodalStiffness(a), a.inertia), limit = blocks::largestSafety(law);
+	const Real share = scene->dt / blocks::stableTimeStep(a, model.stiffness(), a.inertia), limit = blocks::largestSafety(law);
 	blocks::require(share <= limit * (1 + 1e-9),
 	                "O.dt as a fraction of the stable time step must not exceed " + blocks::shown(limit) + " with damping='" + damping
 	                        + "' (smaller O.dt or BlockTimeStepper.safety)",

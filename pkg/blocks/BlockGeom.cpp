@@ -23,19 +23,19 @@ bool Ig2_Block_Block_BlockGeom::go(
 	blocks::BlockAssembly& a      = block1->model->assembly;
 	auto*                  geom   = static_cast<BlockGeom*>(interaction->geom.get());
 	if (!geom) { // a pair that the collider has found; bonded ones have theirs from BlockModel::insert
-		const int contact = blocks::contactOf(a, block1->index, block2->index);
-		if (contact < 0) {
-			blocks::requestContact(a, block1->index, block2->index);
-			return false;
-		}
 		interaction->geom = shared_ptr<BlockGeom>(geom = new BlockGeom);
 		geom->model       = block1->model;
-		geom->contact     = contact;
+	}
+	if (geom->contactsVersion != a.contacts.version) {
+		geom->contactsVersion = a.contacts.version;
+		geom->contact         = a.contacts.order.empty() ? -1 : blocks::contactOf(a, block1->index, block2->index, geom->contact);
 	}
 	if (geom->pair >= 0) blocks::updateKinematics(a, a.pairs[geom->pair].first, a.pairs[geom->pair].last);
-	if (a.contacts.order.empty()) return true;
-	geom->contact = blocks::contactOf(a, block1->index, block2->index, geom->contact);
 	if (geom->contact >= 0) blocks::updateContact(a, geom->contact);
+	else if (geom->pair < 0 && !interaction->isReal()) {
+		if (scene->iter % requestInterval == 0) blocks::requestContact(a, block1->index, block2->index);
+		return false;
+	}
 	return true;
 }
 

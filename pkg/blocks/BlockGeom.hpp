@@ -11,6 +11,8 @@ class BlockGeom : public IGeom {
 public:
 	virtual ~BlockGeom();
 
+	long contactsVersion = -1; ///< of the model's contacts when `contact` was looked up
+
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(BlockGeom, IGeom,
 		"Contact points between two blocks. Each segment, an overlap of two edges, has one at either end; their areas add up to the common surface.",
@@ -46,6 +48,9 @@ public:
 	YADE_CLASS_BASE_DOC(Ig2_Block_Block_BlockGeom, IGeomFunctor,
 		"Opening and slip at the contact points of two bonded :yref:`blocks<Block>`, in a frame that turns with their edges (UDEC's point contacts; paper, section 2.2); with :yref:`BlockContacts`, depth and overlap of the edges of blocks that are not bonded, or no more.");
 	// clang-format on
+	/// Steps between two requests for the contact of blocks whose boxes overlap; the margin of contact is thousands of steps wide.
+	static constexpr long requestInterval = 8;
+
 	FUNCTOR2D(Block, Block);
 	DEFINE_FUNCTOR_ORDER_2D(Block, Block);
 };

@@ -3,6 +3,7 @@
 #include "BlockGeom.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <blocks/kernel/TimeStep.hpp>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
 #include <core/Interaction.hpp>
@@ -40,12 +41,13 @@ const shared_ptr<BlockModel>& BlockModel::of(const Scene* scene)
 	throw std::runtime_error("no blocks in the scene: build a BlockModel and call its insert() before the first step");
 }
 
-int BlockModel::pairOf(int block1, int block2) const
+const vector<Real>& BlockModel::stiffness()
 {
-	const std::array<int, 2> key { std::min(block1, block2), std::max(block1, block2) };
-	const auto               found
-	        = std::lower_bound(assembly.pairs.begin(), assembly.pairs.end(), key, [](const blocks::Pair& p, const auto& k) { return p.block < k; });
-	return found != assembly.pairs.end() && found->block == key ? int(found - assembly.pairs.begin()) : -1;
+	if (knownVersion != version) {
+		knownVersion   = version;
+		knownStiffness = blocks::nodalStiffness(assembly);
+	}
+	return knownStiffness;
 }
 
 void BlockModel::complain(const std::string& sentence)

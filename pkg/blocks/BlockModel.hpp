@@ -27,14 +27,14 @@ public:
 	virtual ~BlockModel();
 	void postLoad(BlockModel&);
 
+	/// Stiffness that each grid point feels, as it is now [N/m]; see nodalStiffness.
+	const vector<Real>& stiffness();
+
 	/// Step of which the forces are, as BlockForces says.
 	long forcesAt = -1;
 
 	/// The scene's model, or an error that says how one gets there.
 	static const shared_ptr<BlockModel>& of(const Scene*);
-
-	/// Index into assembly.pairs of two blocks, or -1.
-	int pairOf(int block1, int block2) const;
 
 	/// InteractionLoop cannot let an exception out of its threads: functors complain here and the next engine throws it.
 	void complain(const std::string& sentence);
@@ -79,6 +79,9 @@ public:
 
 private:
 	std::vector<blocks::Polygon> regions;
+
+	vector<Real> knownStiffness;
+	long         knownVersion = 0;
 
 	static std::atomic<long> lastVersion;
 	std::atomic<long>        version { ++lastVersion };

@@ -828,6 +828,7 @@ namespace {
 struct Stress {
 	int  poses = 0, touched = 0;
 	Real gain = 0; ///< worst, of what there was
+	Real lost = 0; ///< worst imbalance of energy and friction, of what there was
 	long edgePairs = 0, active = 0;
 };
 
@@ -892,11 +893,12 @@ Stress stress(int count, int steps, unsigned seed)
 		Simulation run(a, frictional(1e6, 5e5, (pose % 3) * 15 * degree), 0.5);
 		for (int b : { 0, 1 })
 			if (a.firstZone[b] < a.firstZone[b + 1]) setVelocity(a, b, 0.5 * Vec2(u(random), u(random)) + (b ? -0.3 : 0.3) * apart, u(random));
-		Real start = 0, most = 0;
+		Real start = 0, most = 0, imbalance = 0;
 		bool touched = false;
 		run.steps(steps, [&](Real energy) {
 			if (run.step == 0) start = energy;
-			most = std::max(most, energy);
+			most      = std::max(most, energy);
+			imbalance = std::max(imbalance, std::abs(energy + contactFriction(a) - start));
 			for (int c : a.contacts.order)
 				for (const EdgePair& e : a.contacts.all[c].edges)
 					touched |= e.active(), ++result.edgePairs, result.active += e.active();
@@ -905,6 +907,7 @@ Stress stress(int count, int steps, unsigned seed)
 		const Real gain = most / start - 1;
 		if (gain > 0.01) std::printf("pose %d gains %.3f\n", pose, gain);
 		result.gain = std::max(result.gain, gain);
+		result.lost = std::max(result.lost, imbalance / start);
 		result.touched += touched;
 		++result.poses;
 	}
@@ -917,9 +920,10 @@ TEST(FreeContacts, RandomPolygonsGainNoEnergy)
 {
 	const int    count = std::getenv("BLOCKS_STRESS") ? std::atoi(std::getenv("BLOCKS_STRESS")) : 200;
 	const Stress s     = stress(count, 1000, 21);
-	std::printf("stress: %d poses, %d touched, worst gain of energy %.1e; %.1f edge pairs, %.1f active\n", s.poses, s.touched, s.gain, Real(s.edgePairs) / s.poses / 1000, Real(s.active) / s.poses / 1000);
+	std::printf("stress: %d poses, %d touched, worst gain of energy %.1e, worst imbalance %.1e; %.1f edge pairs, %.1f active\n", s.poses, s.touched, s.gain, s.lost, Real(s.edgePairs) / s.poses / 1000, Real(s.active) / s.poses / 1000);
 	EXPECT_GT(s.touched, count / 3);
 	EXPECT_LT(s.gain, 0.01);
+	EXPECT_LT(s.lost, 0.01);
 }
 
 TEST(FreeContacts, SpinningTogetherMakesNoSlip)
@@ -947,18 +951,29 @@ TEST(FreeContacts, SpinningTogetherMakesNoSlip)
 TEST(FreeContacts, StiffnessIsBounded)
 {
 	// Heaps in any state: the largest eigenvalue of M^-1 K, from finite differences of the forces with friction sticking, must not exceed
-	// what nodalStiffness promises: omega dt <= 2 at the stable step. Rigid floor, soft zones so that contacts dominate.
+	// what nodalStiffness promises: omega dt <= 2 at the stable step. Rigid floor, soft zones so that contacts dominate. Depths stay
+	// below a tenth of a block: deeper contacts, which fade out, are up to twice as stiff as promised.
+	// In closed form first: two edges of each corner, k T (La + Lb), k the larger of kn and ks.
+	BlockAssembly two = scene(1e8, 0.7);
+	addRigid(two, box(0, 0, 1, 0.5)), addRigid(two, box(0.2, 0.5, 2, 0.3));
+	requestContact(two, 0, 1);
+	prepareContacts(two);
+	setContactJoint(two, 0, frictional(2e6, 3e6, 0.1));
+	const auto share = contactStiffness(two);
+	for (int n = 0; n < 8; ++n)
+		EXPECT_NEAR(share[n], 3e6 * 0.7 * (n < 4 ? 1.5 : 2.3), 1e-3);
+
 	Real worst = 0;
-	for (unsigned seed = 0; seed < 6; ++seed) {
+	for (unsigned seed = 0; seed < 20; ++seed) {
 		std::mt19937  random(seed);
-		BlockAssembly a = scene(2e6);
+		BlockAssembly a = scene(3e5);
 		addRigid(a, { { -2, -0.5 }, { 2, -0.5 }, { 2, 0.4 }, { 1, 0 }, { -1, 0 }, { -2, 0.4 } });
 		for (int i = 0; i < 5; ++i)
-			addFan(a, shifted(randomPolygon(random, 0.3, 3 + int(seed + i) % 4), { -0.8 + 0.45 * (i % 4), 0.32 + 0.5 * (i / 4) }));
+			addFan(a, shifted(randomPolygon(random, 0.22, 3 + int(seed + i) % 4), { -0.8 + 0.45 * (i % 4), 0.25 + 0.45 * (i / 4) }));
 		addGravity(a, { 0, -9.81 });
-		const JointParams joint = frictional(2e6, 2e6, 40 * degree);
+		const JointParams joint = frictional(5e6, 5e6, 40 * degree);
 		Simulation        run(a, joint, 0.4, 0.3);
-		run.steps(1500);
+		run.steps(4000);
 		const auto        stiffness = nodalStiffness(a);
 		const Real        stable    = stableTimeStep(a, stiffness, a.mass), d = 1e-9;
 		std::vector<int>  free;
@@ -1017,8 +1032,13 @@ TEST(FreeContacts, NonConvexBlocksInterlock)
 {
 	// A block in the notch of another one: pushed to either side it is stopped by the notch's walls, with the area of the wall.
 	BlockAssembly a = scene();
-	addRigid(a, { { 0, 0 }, { 3, 0 }, { 3, 1 }, { 2, 1 }, { 2, 0.4 }, { 1, 0.4 }, { 1, 1 }, { 0, 1 } });
+	addRigid(a, { { 0, 0 }, { 3, 0 }, { 3, 1 }, { 2, 1 }, { 2, 0.4 }, { 1.5, 0.4 }, { 1, 0.4 }, { 1, 1 }, { 0, 1 } });
 	addRigid(a, box(1, 0.4, 1, 1));
+	requestContact(a, 0, 1);
+	prepareContacts(a);
+	const Real sharp[] = { 1, 1, 1, 1, 0, 0, 0, 1, 1 }; // right angles are, inward corners and points of straight edges are not
+	for (int n = 0; n < 9; ++n)
+		EXPECT_NEAR(a.contacts.sharpness[n], sharp[n], 10 * eps) << n;
 	const Real d = 1e-4;
 	for (const Vec2& push : { Vec2(d, 0), Vec2(-d, 0), Vec2(0, -d) }) {
 		BlockAssembly b = a;

@@ -46,7 +46,7 @@ namespace {
 			const Vec2 in = a.reference[to] - a.reference[from], out = a.reference[next] - a.reference[to];
 			const Real lengths = in.norm() * out.norm(), sine = cross(in, out) / lengths, cosine = in.dot(out) / lengths;
 			// the outline turns left by the angle of (cosine, sine) = pi - beta, so 1/tan(beta/2) = tan(turn/2)
-			const Real tangent = sine > 0 ? sine / std::max(1 + cosine, std::numeric_limits<Real>::epsilon()) : 0;
+			const Real tangent = sine / std::max(1 + cosine, std::numeric_limits<Real>::epsilon()); // negative where it bends inward
 			const Real straight = 1e-9; // an outline that turns by less than this [rad] goes straight on
 			f.sharpness[to]    = tangent > straight ? tangent * tangent : 0;
 			f.rounding[to]     = roundingFraction * std::min(in.norm(), out.norm());
@@ -169,6 +169,7 @@ namespace {
 			}
 		}
 		contact.edges = std::move(found);
+		contact.active.clear(); // until the next updateContact
 	}
 
 	/// The contact of two blocks, made if there is none.
@@ -342,7 +343,7 @@ void prepareContacts(BlockAssembly& a)
 			if (moved[b])
 				for (int n = a.firstNode[b]; n < a.firstNode[b + 1]; ++n)
 					f.detectedAt[n] = a.position[n];
-		if (erased) sortContacts(a);
+		if (erased) sortContacts(a), ++f.version;
 	}
 	if (created) ++f.version;
 }
@@ -357,24 +358,30 @@ void setContactJoint(BlockAssembly& a, int contact, const JointParams& joint)
 
 void updateContact(BlockAssembly& a, int contact)
 {
-	for (EdgePair& e : a.contacts.all[contact].edges)
+	FreeContact& c = a.contacts.all[contact];
+	c.active.clear();
+	for (int i = 0; i < int(c.edges.size()); ++i) {
+		EdgePair& e       = c.edges[i];
+		const bool before = e.active();
 		edgeGeometry(corners(a, e), e.shape, e.geometry);
+		if (e.active()) c.active.push_back(i);
+		else if (before || e.area > 0) { // they have parted
+			c.friction += shearEnergy(c, e);
+			e.slip = e.sigma = e.tau = { 0, 0 };
+			e.area                   = 0;
+		}
+	}
 }
 
 void advanceContact(BlockAssembly& a, int contact, Real dt)
 {
 	FreeContact&       c     = a.contacts.all[contact];
 	const JointParams& joint = c.joint;
-	for (EdgePair& e : c.edges) {
-		const EdgeGeometry& g = e.geometry;
-		if (!g.active) {
-			if (e.area > 0) c.friction += shearEnergy(c, e);
-			e.slip = e.sigma = e.tau = { 0, 0 };
-			e.area                   = 0;
-			continue;
-		}
-		const FourPoints x    = corners(a, e);
-		const Real       area = a.thickness * g.area;
+	for (int index : c.active) {
+		EdgePair&           e    = c.edges[index];
+		const EdgeGeometry& g    = e.geometry;
+		const FourPoints    x    = corners(a, e);
+		const Real          area = a.thickness * g.area;
 		e.force.fill(Vec2::Zero());
 		addNormalForces(x, e.shape, g, joint.kn * a.thickness, e.force);
 		// where the area changes the springs keep their energy, so that a contact which grows and shrinks neither makes nor wears any
@@ -419,8 +426,8 @@ void gatherContactForces(const BlockAssembly& a, int block, Vec2* force)
 	for (int i = f.firstOfBlock[block]; i < f.firstOfBlock[block + 1]; ++i) {
 		const FreeContact& c     = f.all[f.ofBlock[i]];
 		const int          first = c.block[0] == block ? 0 : 2;
-		for (const EdgePair& e : c.edges) {
-			if (!e.active()) continue;
+		for (int index : c.active) {
+			const EdgePair& e = c.edges[index];
 			force[e.node[first]] += e.force[first];
 			force[e.node[first + 1]] += e.force[first + 1];
 		}

@@ -35,6 +35,7 @@ struct FreeContact {
 	std::array<int, 2>    block { -1, -1 }; ///< first < second; -1: an empty slot
 	JointParams           joint;            ///< residual values count; kn = 0 until they are known
 	std::vector<EdgePair> edges;            ///< sorted by edge
+	std::vector<int>      active;           ///< those of `edges` that touch, as of the last updateContact
 	Real                  friction = 0;     ///< dissipated so far [J]
 };
 
