@@ -1049,3 +1049,27 @@ TEST(FreeContacts, NonConvexBlocksInterlock)
 		EXPECT_LT((contactForce(b, 1) - expected).norm(), 0.01 * expected.norm()) << push.transpose();
 	}
 }
+
+TEST(FreeContacts, PartingSetsFreeWhatTheSpringsHeld)
+{
+	// Two rigid boxes, sheared by s at depth d with residual cohesion, in which nothing slides: 2 x A ks s^2/2 with 2 A = 0.8 x 0.5. Then
+	// they are parted in one step: all that the shear springs held counts as friction, and nothing is held any more.
+	BlockAssembly a = scene(1e8, 0.5);
+	addRigid(a, box(-1, -1, 3, 1)), addRigid(a, box(0, -1e-4, 0.8, 1));
+	JointParams joint      = frictional(1e8, 4e7, 0);
+	joint.cohesionResidual = joint.cohesion = 1e6;
+	computeAllForces(a, joint, 1);
+	const Real s = 1e-5;
+	for (int n = a.firstNode[1]; n < a.firstNode[2]; ++n)
+		a.position[n].x() += s, a.velocity[n].x() = s;
+	computeAllForces(a, joint, 1);
+	const Real shear = 0.8 * 0.5 * 4e7 * s * s / 2, normal = 0.8 * 0.5 * 1e8 * 1e-8 / 2;
+	EXPECT_NEAR(contactEnergy(a), shear + normal, 1e-9 * (shear + normal));
+	EXPECT_NEAR(contactForce(a, 1).x(), -0.8 * 0.5 * 4e7 * s, 1e-6);
+	EXPECT_NEAR(contactFriction(a), 0, 1e-9 * shear);
+	moveBlock(a, 1, { 0, 1e-3 });
+	computeAllForces(a, joint, 1);
+	EXPECT_EQ(contactEnergy(a), 0);
+	EXPECT_EQ(contactForce(a, 1).norm(), 0);
+	EXPECT_NEAR(contactFriction(a), shear, 1e-9 * shear);
+}
