@@ -20,7 +20,7 @@ from yade import *
 from yadeblocks import pictures, scenario
 from yadeblocks.export import BlocksExport
 from yadeblocks.progress import Progress, loadingLine
-from yadeblocks.results import Results
+from yadeblocks.results import Results, engineCosts
 from yadeblocks.specimen import nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -103,6 +103,7 @@ def crush(seed, steps, label):
 # ---- running
 
 results = Results(p)
+O.timingEnabled = True
 for seed in p.seedList:
 	with results.run(seed) as run:
 		with run.stepping():
@@ -116,7 +117,7 @@ for seed in p.seedList:
 		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
 		run.add('cracks_at_peak', '1', broken[peak])
 		run.curve(strain_permille=1e3 * strain, stress_MPa=stress / 1e6, lateral_permille=1e3 * lateral, broken=broken)
-		run.model(model, steps=O.iter)
+		run.model(model, steps=O.iter, **engineCosts(model, O.iter))
 		run.quality(unbalanced_ratio_max=unbalanced[len(unbalanced) // 10:].max())
 	if seed == p.seed:
 		if p.vtk: BlocksExport(p.folder).write(model, O.time)

@@ -19,7 +19,7 @@ from yade import *
 from yadeblocks import pictures, scenario
 from yadeblocks.export import BlocksExport
 from yadeblocks.progress import Progress, loadingLine
-from yadeblocks.results import Results
+from yadeblocks.results import Results, engineCosts
 from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -31,7 +31,7 @@ joint = dict(kn=400e9, ks=200e9, frictionAngle=radians(45), frictionAngleResidua
 velocity = 0.2e-3 # [m/s]
 
 p = scenario.parameters(
-	{**scenario.commonParameters(size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, steps=40000), 'sigma': 0.5e6, 'stroke': 0.3e-3, 'pressSteps': 3000, 'brickZone': 8e-3,
+	{**scenario.commonParameters(size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, steps=40000), 'sigma': 0.5e6, 'stroke': 0.5e-3, 'pressSteps': 3000, 'brickZone': 8e-3,
 	 'merge': 0.1, 'halfRate': False, 'vtk': True},
 	{'sigma': scenario.notNegative, 'stroke': scenario.positive, 'pressSteps': scenario.atLeastOne, 'brickZone': scenario.positive,
 	 'size': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer'),
@@ -92,6 +92,7 @@ def shear(seed, steps, label):
 # ---- running
 
 results = Results(p)
+O.timingEnabled = True
 for seed in p.seedList:
 	with results.run(seed) as run:
 		with run.stepping():
@@ -102,7 +103,7 @@ for seed in p.seedList:
 		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
 		run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
 		run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, uplift_mm=1e3 * uplift, broken=broken)
-		run.model(model, steps=O.iter)
+		run.model(model, steps=O.iter, **engineCosts(model, O.iter))
 		run.quality(unbalanced_ratio_max=unbalanced[len(unbalanced) // 10:].max())
 	if seed == p.seed:
 		if p.vtk: BlocksExport(p.folder).write(model, O.time)

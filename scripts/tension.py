@@ -24,7 +24,7 @@ from yade import *
 from yadeblocks import pictures, scenario
 from yadeblocks.export import BlocksExport
 from yadeblocks.progress import Progress, loadingLine
-from yadeblocks.results import Results, crackAreas
+from yadeblocks.results import Results, crackAreas, engineCosts
 from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -108,6 +108,7 @@ def seriesStiffness():
 # ---- running
 
 results = Results(p)
+O.timingEnabled = True
 for seed in p.seedList:
 	with results.run(seed) as run:
 		model = build(seed)
@@ -126,7 +127,7 @@ for seed in p.seedList:
 		cracked = crackAreas(model)
 		run.add('crack_share_unit-mortar', '1', sum(cracked['unit-mortar'].values()) / sum(sum(modes.values()) for modes in cracked.values()))
 		run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, broken=broken)
-		run.model(model, steps=O.iter)
+		run.model(model, steps=O.iter, **engineCosts(model, O.iter))
 		run.quality(unbalanced_ratio_max=unbalanced[len(unbalanced) // 10:].max())
 	if seed == p.seed:
 		if p.vtk: export.write(model, O.time)

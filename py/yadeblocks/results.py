@@ -129,6 +129,19 @@ class Run:
 		)
 
 
+def engineCosts(model, steps):
+	"""What the hot engines took, if O.timingEnabled was set: {"ns_per_zone": of BlockForces, "ns_per_contact": of InteractionLoop, for each
+	contact point} in a step, wall-clock time; an empty dictionary otherwise."""
+	from yade.wrapper import Omega
+	if not Omega().timingEnabled or not steps:
+		return {}
+	times = {type(engine).__name__: engine.execTime for engine in Omega().engines}
+	return {
+	        "ns_per_zone": times["BlockForces"] / steps / max(1, model.zoneCount),
+	        "ns_per_contact": times["InteractionLoop"] / steps / max(1, model.contactCount)
+	}
+
+
 class Results:
 	"""Gathers the runs of a scenario. `parameters`: from scenario.parameters."""
 
@@ -215,8 +228,9 @@ class Results:
 		quality = [f"{name} {value:.2g}" for name, value in result["quality"].items() if value is not None]
 		cost = [
 		        f"{_short(result['cost'][key])} {unit}" for key, unit in
-		        (("cpu_s", "CPU s"), ("wall_s", "s"), ("steps", "steps"), ("us_per_step", "µs/step"), ("zones", "zones"), ("contacts", "contact points"))
-		        if result["cost"][key] is not None
+		        (("cpu_s", "CPU s"), ("wall_s", "s"), ("steps", "steps"), ("us_per_step", "µs/step"), ("zones", "zones"), ("contacts", "contact points"),
+		         ("ns_per_zone", "ns/zone"), ("ns_per_contact", "ns/contact point"))
+		        if result["cost"].get(key) is not None
 		]
 		return ["quality: " + ", ".join(quality)] * bool(quality) + ["one run: " + ", ".join(cost)] * bool(cost) + [f"see {self.folder}"]
 

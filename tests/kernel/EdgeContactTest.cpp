@@ -85,13 +85,13 @@ TEST(EdgeContact, ForcesAreTheGradient)
 	// Central differences of step d: truncation d^2/6 U'''/U' ~ (1e-6)^2/6 x (1/rho^2 ~ 1e5) = 2e-8 of the force, rounding
 	// eps U/(d U') ~ 2e-16 x 0.1/1e-6 = 2e-11. Where a blend begins or ends, U'' jumps by up to U'/rho, and the error is d/rho ~ 3e-4 at
 	// worst; that happens with a chance of d/rho a pose. Poses whose force is below 1e-5 (of kn T = 1) are as good as not in contact.
-	RandomEdges        edges;
-	const Real         d = 1e-6;
-	int                poses = 0, blended = 0, faded = 0, poor = 0;
+	RandomEdges edges;
+	const Real  d     = 1e-6;
+	int         poses = 0, blended = 0, faded = 0, poor = 0;
 	for (int i = 0; i < 20000; ++i) {
-		FourPoints       p = edges.points();
-		const EdgeShape  s = edges.shape();
-		const FourPoints f = forces(p, s);
+		FourPoints       p     = edges.points();
+		const EdgeShape  s     = edges.shape();
+		const FourPoints f     = forces(p, s);
 		const Real       scale = largest(f);
 		if (scale < 1e-5) continue;
 		EdgeGeometry g;
@@ -136,8 +136,8 @@ TEST(EdgeContact, ForceAndMomentVanish)
 TEST(EdgeContact, ParallelEdgesGiveThePointLaw)
 {
 	// A from (0, 0) to (2, 0) looks down upon B from (2.6, d) to (0.7, d): overlap 1.3, of which either end has half.
-	const Real      d = 1e-3;
-	const EdgeShape s = shapeOf({ 1.5, 1.6, 1.7, 1.4 });
+	const Real       d = 1e-3;
+	const EdgeShape  s = shapeOf({ 1.5, 1.6, 1.7, 1.4 });
 	const FourPoints p { Vec2(0, 0), Vec2(2, 0), Vec2(2.6, d), Vec2(0.7, d) };
 	EdgeGeometry     g;
 	edgeGeometry(p, s, g);
@@ -161,28 +161,28 @@ TEST(EdgeContact, CollinearEdgesShareWithoutLossOrGain)
 	const Real d = 2e-3, flat = M_PI;
 	for (Real corner : { flat, M_PI / 2 })
 		for (Real x : { -0.5, -0.019, -0.011, -0.003, 0.0, 0.003, 0.011, 0.019, 0.3 }) {
-		const Vec2       a0(x - 0.6, 0), a1(x, 0), left(-1.5, d), middle(0, d), right(0.8, d);
-		const EdgeShape  s  = shapeOf({ flat, corner, flat, flat });
-		const FourPoints f1 = forces({ a0, a1, middle, left }, s), f2 = forces({ a0, a1, right, middle }, s);
-		EXPECT_NEAR((f1[0] + f1[1] + f2[0] + f2[1]).y(), 0.6 * d, corner == flat ? 100 * eps : d * d) << x;
-		EXPECT_NEAR((f1[0] + f1[1] + f2[0] + f2[1]).x(), 0, corner == flat ? 100 * eps : d * d) << x;
-	}
+			const Vec2       a0(x - 0.6, 0), a1(x, 0), left(-1.5, d), middle(0, d), right(0.8, d);
+			const EdgeShape  s  = shapeOf({ flat, corner, flat, flat });
+			const FourPoints f1 = forces({ a0, a1, middle, left }, s), f2 = forces({ a0, a1, right, middle }, s);
+			EXPECT_NEAR((f1[0] + f1[1] + f2[0] + f2[1]).y(), 0.6 * d, corner == flat ? 100 * eps : d * d) << x;
+			EXPECT_NEAR((f1[0] + f1[1] + f2[0] + f2[1]).x(), 0, corner == flat ? 100 * eps : d * d) << x;
+		}
 }
 
 TEST(EdgeContact, NothingWhereNothingFaces)
 {
-	const EdgeShape s = shapeOf({ 1.5, 1.5, 1.5, 1.5 });
+	const EdgeShape s     = shapeOf({ 1.5, 1.5, 1.5, 1.5 });
 	auto            touch = [&](const FourPoints& p) {
                 EdgeGeometry g;
                 edgeGeometry(p, s, g);
                 return g.active;
 	};
-	EXPECT_FALSE(touch({ Vec2(0, 0), Vec2(1, 0), Vec2(1, -0.1), Vec2(0, -0.1) }));     // a gap
-	EXPECT_FALSE(touch({ Vec2(0, 0), Vec2(1, 0), Vec2(0, 0.01), Vec2(1, 0.01) }));     // the same way
-	EXPECT_FALSE(touch({ Vec2(0, 0), Vec2(1, 0), Vec2(0.5, 0), Vec2(0.5, 1) }));       // at a right angle
-	EXPECT_FALSE(touch({ Vec2(0, 0), Vec2(1, 0), Vec2(2, 0.01), Vec2(1.03, 0.01) }));  // beside each other
-	EXPECT_FALSE(touch({ Vec2(0, 0), Vec2(1, 0), Vec2(1, 0.6), Vec2(0, 0.6) }));       // through the block
-	EXPECT_FALSE(touch({ Vec2(0, 0), Vec2(1, 0), Vec2(1, 0), Vec2(0, 0) }));           // touching without depth
+	EXPECT_FALSE(touch({ Vec2(0, 0), Vec2(1, 0), Vec2(1, -0.1), Vec2(0, -0.1) }));    // a gap
+	EXPECT_FALSE(touch({ Vec2(0, 0), Vec2(1, 0), Vec2(0, 0.01), Vec2(1, 0.01) }));    // the same way
+	EXPECT_FALSE(touch({ Vec2(0, 0), Vec2(1, 0), Vec2(0.5, 0), Vec2(0.5, 1) }));      // at a right angle
+	EXPECT_FALSE(touch({ Vec2(0, 0), Vec2(1, 0), Vec2(2, 0.01), Vec2(1.03, 0.01) })); // beside each other
+	EXPECT_FALSE(touch({ Vec2(0, 0), Vec2(1, 0), Vec2(1, 0.6), Vec2(0, 0.6) }));      // through the block
+	EXPECT_FALSE(touch({ Vec2(0, 0), Vec2(1, 0), Vec2(1, 0), Vec2(0, 0) }));          // touching without depth
 	EXPECT_TRUE(touch({ Vec2(0, 0), Vec2(1, 0), Vec2(1, 0.01), Vec2(0, 0.01) }));
 }
 
@@ -213,8 +213,8 @@ TEST(EdgeContact, SlipIsObjective)
 		edgeGeometry(p, edges.shape(), g);
 		if (!g.active) continue;
 		for (int k : { 0, 1 }) {
-			const EdgeEnd end = edgeEnd(p, g, k);
-			Vec2          sum = Vec2::Zero();
+			const EdgeEnd end    = edgeEnd(p, g, k);
+			Vec2          sum    = Vec2::Zero();
 			Real          moment = 0;
 			for (int n = 0; n < 4; ++n)
 				sum += end.slipGradient[n], moment += cross(p[n], end.slipGradient[n]);
@@ -251,10 +251,10 @@ TEST(EdgeContact, NothingExplodesWhereEdgesAreTinyOrTouchExactly)
 			for (Real depth : { 0.0, 1e-12, 1e-6, 1e-2 })
 				for (Real tilt : { 0.0, 1e-12, 0.7, M_PI / 2, -M_PI / 2 })
 					for (int meet : { 0, 1, 2 }) {
-						const Vec2 eB(-std::cos(tilt), -std::sin(tilt));
-						const Vec2 a0(0, 0), a1(LA, 0);
-						const Vec2 b0 = (meet == 0 ? a1 : meet == 1 ? Vec2(a0 - LB * eB) : Vec2(0.5 * LA, 0)) + Vec2(0, depth);
-						const EdgeShape  s = shapeOf({ 1.5, 0.1, 2, M_PI }, 0.02 * std::min(LA, LB), 0.25 * std::min(LA, LB));
+						const Vec2       eB(-std::cos(tilt), -std::sin(tilt));
+						const Vec2       a0(0, 0), a1(LA, 0);
+						const Vec2       b0 = (meet == 0 ? a1 : meet == 1 ? Vec2(a0 - LB * eB) : Vec2(0.5 * LA, 0)) + Vec2(0, depth);
+						const EdgeShape  s  = shapeOf({ 1.5, 0.1, 2, M_PI }, 0.02 * std::min(LA, LB), 0.25 * std::min(LA, LB));
 						const FourPoints p { a0, a1, b0, b0 + LB * eB }, f = forces(p, s);
 						EdgeGeometry     g;
 						edgeGeometry(p, s, g);

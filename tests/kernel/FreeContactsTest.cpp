@@ -12,8 +12,8 @@ constexpr Real degree = M_PI / 180;
 JointParams frictional(Real kn, Real ks, Real phi)
 {
 	JointParams p;
-	p.kn = kn;
-	p.ks = ks;
+	p.kn     = kn;
+	p.ks     = ks;
 	p.tanPhi = p.tanPhiResidual = std::tan(phi);
 	return p;
 }
@@ -73,8 +73,8 @@ struct Simulation {
 	long           step = 0;
 
 	Simulation(BlockAssembly& assembly, const JointParams& p, Real safety = 0.3, Real alpha = -1)
-	        : a(assembly)
-	        , joint(p)
+		: a(assembly)
+		, joint(p)
 	{
 		damping.kind  = alpha < 0 ? Damping::Kind::none : Damping::Kind::local;
 		damping.alpha = std::max(alpha, Real(0));
@@ -83,11 +83,11 @@ struct Simulation {
 	}
 	/// Another assembly, in the same state as the first.
 	Simulation(BlockAssembly& assembly, const Simulation& o)
-	        : a(assembly)
-	        , joint(o.joint)
-	        , dt(o.dt)
-	        , damping(o.damping)
-	        , step(o.step)
+		: a(assembly)
+		, joint(o.joint)
+		, dt(o.dt)
+		, damping(o.damping)
+		, step(o.step)
 	{
 	}
 	/// As if every pair of blocks touched.
@@ -119,7 +119,7 @@ struct Simulation {
 	}
 	void steps(long count)
 	{
-		steps(count, [](Real) { });
+		steps(count, [](Real) {});
 	}
 	std::function<Vec2(int)> rigidVelocity = [](int) { return Vec2(0, 0); };
 };
@@ -202,8 +202,8 @@ TEST(FreeContacts, OnlyNearBlocksGetAContact)
 	ASSERT_GE(c, 0);
 	EXPECT_EQ(contactOf(a, 0, 1, 77), c);
 	EXPECT_EQ(contactOf(a, 0, 1, c), c);
-	const auto facing = std::array<int, 2> { 1, 7 }; // right edge of block 0, left edge of block 1
-	const auto& edges = a.contacts.all[c].edges;
+	const auto  facing = std::array<int, 2> { 1, 7 }; // right edge of block 0, left edge of block 1
+	const auto& edges  = a.contacts.all[c].edges;
 	EXPECT_TRUE(std::any_of(edges.begin(), edges.end(), [&](const EdgePair& e) { return e.edge == facing; }));
 	expectRefusal([&] { requestContact(a, 1, 1); }, { "two different blocks", "got 1" });
 	expectRefusal([&] { requestContact(a, 0, 9); }, { "indices of two blocks", "got 9" });
@@ -246,7 +246,9 @@ TEST(FreeContacts, PairsAreFoundInTimeAndForgottenWhenFar)
 		Real low = 1;
 		for (int n = a.firstNode[1]; n < a.firstNode[2]; ++n)
 			low = std::min(low, a.position[n].y());
-		if (before < -1e-6) { ASSERT_GT(contactForce(a, 1).y(), 0); }
+		if (before < -1e-6) {
+			ASSERT_GT(contactForce(a, 1).y(), 0);
+		}
 		before = low;
 		lowest = std::min(lowest, low);
 	});
@@ -269,7 +271,7 @@ TEST(FreeContacts, ConformingJointGivesThePointLaw)
 		}
 		rotateAbout(a, { 1, 0 }, 2e-7, { 0, 0 }, a.firstNode[1]);
 	};
-	const JointParams joint = frictional(1e9, 4e8, 30 * degree);
+	const JointParams joint  = frictional(1e9, 4e8, 30 * degree);
 	BlockAssembly     bonded = twoBlocks(joint), free = bonded;
 	for (ContactPoint& p : bonded.points)
 		p.joint.status = Joint::unbonded;
@@ -305,9 +307,9 @@ TEST(FreeContacts, BrokenSegmentsAreReleasedWithoutAJump)
 	JointParams joint = elasticJoint(1e9, 4e8);
 	joint.tension = 1e5, joint.cohesion = 2e3, joint.tanPhi = joint.tanPhiResidual = 0.5;
 	joint.cohesionResidual = 500;
-	BlockAssembly a = twoBlocks(joint);
-	const Vec2    along = Vec2(0.3, 0.8).normalized(), normal(along.y(), -along.x());
-	auto          move = [&](const Vec2& u) {
+	BlockAssembly a        = twoBlocks(joint);
+	const Vec2    along    = Vec2(0.3, 0.8).normalized(), normal(along.y(), -along.x());
+	auto          move     = [&](const Vec2& u) {
                 for (int n = a.firstNode[1]; n < a.nodeCount(); ++n)
                         a.position[n] += u, a.velocity[n] = u;
 	};
@@ -356,15 +358,18 @@ TEST(FreeContacts, CornerHitsKeepTheEnergy)
 		for (int fine : { 0, 1 }) {
 			std::mt19937                         random(pose);
 			std::uniform_real_distribution<Real> u(-1, 1);
-			BlockAssembly                        a = scene(3e7);
-			const Ring target = randomPolygon(random, 0.8, 3 + pose % 5), shot = shifted(randomPolygon(random, 0.5, 3 + pose % 4), { 1.31, 0.5 * u(random) });
-			if (pose % 2) addFan(a, target);
-			else addRigid(a, target);
+			BlockAssembly                        a      = scene(3e7);
+			const Ring                           target = randomPolygon(random, 0.8, 3 + pose % 5),
+				   shot                             = shifted(randomPolygon(random, 0.5, 3 + pose % 4), { 1.31, 0.5 * u(random) });
+			if (pose % 2)
+				addFan(a, target);
+			else
+				addRigid(a, target);
 			addFan(a, shot);
 			Simulation run(a, frictional(1e6, 1e6, 0), fine ? 0.075 : 0.3);
 			const Vec2 v(-0.4, 0.15 * u(random));
 			setVelocity(a, 1, v, u(random));
-			Real start = 0, last = 0, deepest = 0;
+			Real       start = 0, last = 0, deepest = 0;
 			const long steps = long(2 / run.dt);
 			run.steps(steps, [&](Real energy) {
 				if (run.step == 1) start = energy;
@@ -412,7 +417,8 @@ TEST(FreeContacts, MomentaAreKept)
 	// Three blocks without loads, spinning and rubbing: momentum and angular momentum to 1e-10 of their turnover.
 	std::mt19937  random(3);
 	BlockAssembly a = scene(5e7);
-	addFan(a, randomPolygon(random, 0.6, 5)), addFan(a, shifted(randomPolygon(random, 0.6, 6), { 1.15, 0.2 })), addFan(a, shifted(randomPolygon(random, 0.6, 4), { 0.5, 1.1 }));
+	addFan(a, randomPolygon(random, 0.6, 5)), addFan(a, shifted(randomPolygon(random, 0.6, 6), { 1.15, 0.2 })),
+		addFan(a, shifted(randomPolygon(random, 0.6, 4), { 0.5, 1.1 }));
 	Simulation run(a, frictional(1e6, 5e5, 30 * degree));
 	setVelocity(a, 0, { 0.4, 0.3 }, 1), setVelocity(a, 1, { -0.6, 0.1 }, 2), setVelocity(a, 2, { 0, -0.7 }, -1);
 	auto momenta = [&](Vec2& p, Real& L, Real& scale) { // positions half a step back, at the time of the velocities; x cross v is the same
@@ -465,13 +471,14 @@ TEST(FreeContacts, ForcesHaveNoJumps)
 	// Swept over a corner, an uneven floor of one block, and a floor of several blocks with steps: the largest change of force from
 	// one step to the next halves with the step. A jump would stay.
 	struct Sweep {
-		const char* what;
-		Ring        floor;
+		const char*               what;
+		Ring                      floor;
 		std::function<Vec2(Real)> path;
-		Real        turn;
+		Real                      turn;
 	};
-	const Ring uneven { { -3, -1 }, { 3, -1 }, { 3, 0 }, { 2.1, 0.03 }, { 1.4, -0.02 }, { 0.6, 0.015 }, { 0.55, 0.01 }, { -0.3, -0.01 }, { -1.2, 0.02 }, { -3, 0 } };
-	const Ring notch { { -3, -1 }, { 3, -1 }, { 3, 0 }, { 0.8, 0 }, { 0.4, -0.4 }, { 0, 0 }, { -3, 0 } };
+	const Ring               uneven { { -3, -1 },     { 3, -1 },      { 3, 0 },        { 2.1, 0.03 },  { 1.4, -0.02 },
+                            { 0.6, 0.015 }, { 0.55, 0.01 }, { -0.3, -0.01 }, { -1.2, 0.02 }, { -3, 0 } };
+	const Ring               notch { { -3, -1 }, { 3, -1 }, { 3, 0 }, { 0.8, 0 }, { 0.4, -0.4 }, { 0, 0 }, { -3, 0 } };
 	const std::vector<Sweep> sweeps {
 		{ "off the corner", box(-3, -1, 3, 1), [](Real s) { return Vec2(-0.3 + 1.5 * s, -0.01); }, 0 },
 		{ "off the corner, turning", box(-3, -1, 3, 1), [](Real s) { return Vec2(-0.3 + 1.2 * s, 0.05 - 0.04 * s); }, 0.3 },
@@ -508,8 +515,10 @@ TEST(FreeContacts, FlatFloorFriction)
 	};
 	for (const Case& c : { Case { 0, true, 1e-3, 1e-3 }, Case { 20 * degree, false, 1e-3, 1e-3 }, Case { 20 * degree, true, 10, 1e-3 } }) {
 		BlockAssembly a = scene();
-		if (c.joints) addRigid(a, box(-3, -1, 2.5, 1)), addRigid(a, box(-0.5, -1, 1.2, 1)), addRigid(a, box(0.7, -1, 3, 1));
-		else addRigid(a, box(-3, -1, 6.7, 1));
+		if (c.joints)
+			addRigid(a, box(-3, -1, 2.5, 1)), addRigid(a, box(-0.5, -1, 1.2, 1)), addRigid(a, box(0.7, -1, 3, 1));
+		else
+			addRigid(a, box(-3, -1, 6.7, 1));
 		const int mover = addRigid(a, box(-2, 0, 0.6, 0.8));
 		moveBlock(a, mover, { 0, 0 }, c.tilt);
 		Real low = 1;
@@ -532,7 +541,12 @@ TEST(FreeContacts, FlatFloorFriction)
 			sum += f;
 		}
 		const Real mean = std::abs(-sum.x() / (joint.tanPhi * sum.y()) - 1);
-		std::printf("friction on a flat floor, tilt %.2f, %s: T/(mu N) off by %.1e at most, %.1e in the mean\n", c.tilt, c.joints ? "three blocks" : "one block", worst, mean);
+		std::printf(
+			"friction on a flat floor, tilt %.2f, %s: T/(mu N) off by %.1e at most, %.1e in the mean\n",
+			c.tilt,
+			c.joints ? "three blocks" : "one block",
+			worst,
+			mean);
 		EXPECT_LT(worst, c.worst);
 		EXPECT_LT(mean, c.mean);
 	}
@@ -550,7 +564,8 @@ TEST(FreeContacts, InclineHoldsAndLetsGo)
 		if (many)
 			for (Real x = -4; x < 3; x += 0.9)
 				addRigid(a, box(x, -1, 0.9, 1));
-		else addRigid(a, box(-4, -1, 8, 1));
+		else
+			addRigid(a, box(-4, -1, 8, 1));
 		const int  mover = addGrid(a, { 0.05, 0 }, 1, 0.4, 3, 1);
 		Simulation run(a, frictional(1e8, 1e8, phi), 0.4, 0.3);
 		auto       tilt = [&](Real slope) {
@@ -600,8 +615,10 @@ TEST(FreeContacts, BoxTopplesOverItsCorner)
 		run.steps(long(1.2 / run.dt));
 		const Real moved = (a.centroid(1) - start).norm();
 		std::printf("toppling %+.0f degree: centre moved by %.2e\n", above, moved);
-		if (above < 0) EXPECT_LT(moved, 0.005);
-		else EXPECT_GT(moved, 0.05);
+		if (above < 0)
+			EXPECT_LT(moved, 0.005);
+		else
+			EXPECT_GT(moved, 0.05);
 	}
 }
 
@@ -611,8 +628,8 @@ TEST(FreeContacts, SlidesAcrossUnevenBlocksAtConstantForce)
 	// slopes' squares; and no step changes the force by more than what the motion of one step can.
 	std::mt19937                         random(5);
 	std::uniform_real_distribution<Real> u(-0.002, 0.002);
-	BlockAssembly                        a = scene(5e8);
-	Real                                 y = 0;
+	BlockAssembly                        a      = scene(5e8);
+	Real                                 y      = 0;
 	int                                  floors = 0;
 	for (Real x = 0; x < 4; x += 0.3, ++floors) {
 		const Real next = u(random);
@@ -627,7 +644,7 @@ TEST(FreeContacts, SlidesAcrossUnevenBlocksAtConstantForce)
 	for (int n = a.firstNode[floors]; n < a.firstNode[floors + 1]; ++n)
 		if (a.reference[n].x() > 1.29 && a.reference[n].y() < 0.2) right.push_back(2 * n);
 	a.addGroup(driven("pull", right, 0.3, 0.2));
-	Vec2 sum = Vec2::Zero();
+	Vec2 sum  = Vec2::Zero();
 	long from = run.step + long(0.5 / run.dt), count = 0;
 	run.steps(long(6.5 / run.dt), [&](Real) {
 		if (run.step < from) return;
@@ -651,11 +668,9 @@ TEST(FreeContacts, TornApartAndPushedTogetherAgain)
 	addGrid(a, { 0, 0 }, 1, 0.5, 2, 1), addGrid(a, { 0, 0.5 }, 1, 0.5, 3, 1);
 	bondAll(a, joint);
 	enableRelease(a);
-	auto all = [&](int block, bool y) {
-		return dofs(a, y, [&, block](const Vec2& p) { return block == 0 ? p.y() < 1e-9 : p.y() > 1 - 1e-9; });
-	};
+	auto all = [&](int block, bool y) { return dofs(a, y, [&, block](const Vec2& p) { return block == 0 ? p.y() < 1e-9 : p.y() > 1 - 1e-9; }); };
 	a.addGroup(driven("bottom", all(0, true), 0)), a.addGroup(driven("bottom x", all(0, false), 0));
-	const int vertical = a.addGroup(driven("top", all(1, true), 0.05)), sideways = a.addGroup(driven("top x", all(1, false), 0));
+	const int  vertical = a.addGroup(driven("top", all(1, true), 0.05)), sideways = a.addGroup(driven("top x", all(1, false), 0));
 	Simulation run(a, joint, 0.4, 0.5);
 	run.steps(long(0.2 / run.dt)); // 10 mm open
 	for (const ContactPoint& p : a.points)
@@ -684,9 +699,9 @@ TEST(FreeContacts, TornApartAndPushedTogetherAgain)
 TEST(FreeContacts, ReleasedAndIntactSegmentsShareAnInterface)
 {
 	// A joint of three segments, the middle one broken: it alone becomes a free pair, neither forces nor areas change.
-	JointParams   joint = elasticJoint(1e9, 5e8);
+	JointParams joint    = elasticJoint(1e9, 5e8);
 	joint.tanPhiResidual = 0.5;
-	BlockAssembly a = scene(1e9);
+	BlockAssembly a      = scene(1e9);
 	addGrid(a, { 0, 0 }, 1.2, 0.5, 3, 1), addGrid(a, { 0, 0.5 }, 1.2, 0.5, 3, 1);
 	bondAll(a, joint);
 	ASSERT_EQ(a.segments.size(), 3u);
@@ -767,7 +782,7 @@ TEST(FreeContacts, SameBitsWhateverThreadsAndOrder)
 {
 	BlockAssembly     one = heap(12), two = one, three = one, shuffled = one;
 	const JointParams joint = frictional(2e6, 1e6, 25 * degree);
-	auto              run = [&](BlockAssembly& a, int threads) {
+	auto              run   = [&](BlockAssembly& a, int threads) {
                 Simulation s(a, joint, 0.4);
                 s.threads = threads;
                 s.steps(1000);
@@ -799,7 +814,7 @@ TEST(FreeContacts, SameBitsWhateverThreadsAndOrder)
 TEST(FreeContacts, ContinuesFromWhatIsSaved)
 {
 	// What AssemblyArchive keeps is enough: the rest is computed again, and the run goes on with the same bits.
-	BlockAssembly     a = heap(8);
+	BlockAssembly     a     = heap(8);
 	const JointParams joint = frictional(2e6, 1e6, 25 * degree);
 	Simulation        run(a, joint, 0.4);
 	run.steps(2500);
@@ -827,8 +842,8 @@ namespace {
 
 struct Stress {
 	int  poses = 0, touched = 0;
-	Real gain = 0; ///< worst, of what there was
-	Real lost = 0; ///< worst imbalance of energy and friction, of what there was
+	Real gain      = 0; ///< worst, of what there was
+	Real lost      = 0; ///< worst imbalance of energy and friction, of what there was
 	long edgePairs = 0, active = 0;
 };
 
@@ -845,7 +860,7 @@ Stress stress(int count, int steps, unsigned seed)
 			if (kind == 1) { // a corner cut by a tiny edge
 				const size_t i = random() % ring.size(), n = ring.size();
 				const Vec2   p = ring[i], next = ring[(i + 1) % n], last = ring[(i + n - 1) % n];
-				ring[i]        = p + 1e-3 * (next - p);
+				ring[i] = p + 1e-3 * (next - p);
 				ring.insert(ring.begin() + long(i), p + 1e-3 * (last - p));
 			}
 			if (kind == 2) { // a grid point in the middle of an edge
@@ -872,23 +887,30 @@ Stress stress(int count, int steps, unsigned seed)
 			second = polygon();
 		const Vec2 apart(std::cos(6 * u(random)), std::sin(6 * u(random)));
 		switch (random() % 4) {
-			case 0: second = shifted(second, 0.9 * apart); break;
-			case 1: second = shifted(second, first[0] * 1.0 - second[second.size() / 2]); break; // vertex upon vertex
-			case 2: {                                                                            // its mirror image across an edge
-				const Vec2 p = first[0], e = (first[1] - first[0]).normalized();
-				second.clear();
-				for (auto it = first.rbegin(); it != first.rend(); ++it) {
-					const Vec2 d = *it - p;
-					second.push_back(p + 2 * d.dot(e) * e - d);
-				}
-				if (!usable(second)) second = shifted(box(0, 0, 0.3, 0.4), first[0]); // another inner point
-				break;
+		case 0:
+			second = shifted(second, 0.9 * apart);
+			break;
+		case 1:
+			second = shifted(second, first[0] * 1.0 - second[second.size() / 2]);
+			break; // vertex upon vertex
+		case 2: {      // its mirror image across an edge
+			const Vec2 p = first[0], e = (first[1] - first[0]).normalized();
+			second.clear();
+			for (auto it = first.rbegin(); it != first.rend(); ++it) {
+				const Vec2 d = *it - p;
+				second.push_back(p + 2 * d.dot(e) * e - d);
 			}
-			default: second = shifted(second, 1.05 * apart);
+			if (!usable(second)) second = shifted(box(0, 0, 0.3, 0.4), first[0]); // another inner point
+			break;
+		}
+		default:
+			second = shifted(second, 1.05 * apart);
 		}
 		BlockAssembly a = scene(5e7);
-		if (random() % 3) addFan(a, first);
-		else addRigid(a, first);
+		if (random() % 3)
+			addFan(a, first);
+		else
+			addRigid(a, first);
 		addFan(a, second);
 		Simulation run(a, frictional(1e6, 5e5, (pose % 3) * 15 * degree), 0.5);
 		for (int b : { 0, 1 })
@@ -920,7 +942,14 @@ TEST(FreeContacts, RandomPolygonsGainNoEnergy)
 {
 	const int    count = std::getenv("BLOCKS_STRESS") ? std::atoi(std::getenv("BLOCKS_STRESS")) : 200;
 	const Stress s     = stress(count, 1000, 21);
-	std::printf("stress: %d poses, %d touched, worst gain of energy %.1e, worst imbalance %.1e; %.1f edge pairs, %.1f active\n", s.poses, s.touched, s.gain, s.lost, Real(s.edgePairs) / s.poses / 1000, Real(s.active) / s.poses / 1000);
+	std::printf(
+		"stress: %d poses, %d touched, worst gain of energy %.1e, worst imbalance %.1e; %.1f edge pairs, %.1f active\n",
+		s.poses,
+		s.touched,
+		s.gain,
+		s.lost,
+		Real(s.edgePairs) / s.poses / 1000,
+		Real(s.active) / s.poses / 1000);
 	EXPECT_GT(s.touched, count / 3);
 	EXPECT_LT(s.gain, 0.01);
 	EXPECT_LT(s.lost, 0.01);
@@ -933,7 +962,7 @@ TEST(FreeContacts, SpinningTogetherMakesNoSlip)
 	BlockAssembly a = scene();
 	addRigid(a, box(0, -1, 2, 1)), addRigid(a, box(0.4, -1e-3, 1, 1));
 	const JointParams joint = frictional(1e9, 1e9, 30 * degree);
-	Real              most = 0;
+	Real              most  = 0;
 	for (int i = 0; i < 10000; ++i) {
 		const auto before = a.position;
 		rotateAbout(a, { 0.7, 0.3 }, 2 * M_PI / 1000, { 0, 0 });
@@ -974,9 +1003,9 @@ TEST(FreeContacts, StiffnessIsBounded)
 		const JointParams joint = frictional(5e6, 5e6, 40 * degree);
 		Simulation        run(a, joint, 0.4, 0.3);
 		run.steps(4000);
-		const auto        stiffness = nodalStiffness(a);
-		const Real        stable    = stableTimeStep(a, stiffness, a.mass), d = 1e-9;
-		std::vector<int>  free;
+		const auto       stiffness = nodalStiffness(a);
+		const Real       stable = stableTimeStep(a, stiffness, a.mass), d = 1e-9;
+		std::vector<int> free;
 		for (int n = 0; n < a.nodeCount(); ++n)
 			if (a.mass[n] > 0) free.push_back(2 * n), free.push_back(2 * n + 1);
 		const int       size = int(free.size());
@@ -987,8 +1016,8 @@ TEST(FreeContacts, StiffnessIsBounded)
                                 v.setZero();
                         b.position[dof / 2][dof % 2] += by;
                         b.velocity[dof / 2][dof % 2] = by;
-                        JointParams rough = joint;
-                        rough.tanPhiResidual = 1e3;
+                        JointParams rough            = joint;
+                        rough.tanPhiResidual         = 1e3;
                         for (int c : b.contacts.order)
                                 b.contacts.all[c].joint = rough;
                         advanceContacts(b, 1);
@@ -999,7 +1028,7 @@ TEST(FreeContacts, StiffnessIsBounded)
 			const auto ahead = column(free[j], d), behind = column(free[j], -d);
 			for (int i = 0; i < size; ++i)
 				k(i, j) = (behind[free[i] / 2][free[i] % 2] - ahead[free[i] / 2][free[i] % 2]) / (2 * d)
-				        / std::sqrt(a.mass[free[i] / 2] * a.mass[free[j] / 2]);
+					/ std::sqrt(a.mass[free[i] / 2] * a.mass[free[j] / 2]);
 		}
 		const Real largest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>((k + k.transpose()) / 2, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 		worst              = std::max(worst, std::sqrt(largest) * stable / 2);
@@ -1013,9 +1042,9 @@ TEST(FreeContacts, TriplePointsStayQuiet)
 {
 	// Bonded cells, squeezed: contacts between all pairs are asked for, as a collider would. Cells that share only a corner or have
 	// intact joints must not disturb each other: forces as without contacts, to the depth by size.
-	JointParams   joint = elasticJoint(1e9, 5e8);
+	JointParams joint    = elasticJoint(1e9, 5e8);
 	joint.tanPhiResidual = 0.5;
-	BlockAssembly a = voronoi(1, 1, 4, 4, { 1e9, 0.2, 2000 }, joint, 1);
+	BlockAssembly a      = voronoi(1, 1, 4, 4, { 1e9, 0.2, 2000 }, joint, 1);
 	for (Vec2& p : a.position)
 		p.y() *= 1 - 1e-5;
 	BlockAssembly b = a;

@@ -25,13 +25,16 @@ writable = {
         'BlockForces': dict(dead=True, label='a'),
         'BlockIntegrator': dict(damping='none', alpha=0.7, viscosity=3., watchPeriod=7, rescueFile='x.xml', dead=True, label='a'),
         'BlockCrackRecorder': dict(fileName='x.txt', iterPeriod=3, label='a'),
+        'Bo1_Block_Aabb': dict(label='a'),
+        'BlockContacts': dict(dead=True, label='a'),
 }
 readonly = {
         'Block': 'model index outline force nodes zones',
         'BlockModel': 'materialLabels firstBody groups blockCount nodeCount zoneCount contactCount',
-        'BlockGeom': 'model pair points positions normals areas openings slips',
-        'JointPhys': 'model pair sigma tau status',
+        'BlockGeom': 'model pair contact ends points positions normals areas openings slips',
+        'JointPhys': 'model pair contact sigma tau status',
         'BlockTimeStepper': 'stableStep',
+        'BlockContacts': 'colliderRuns',
         'BlockCrackRecorder': 'points modes times positions events',
 }
 each = pytest.mark.parametrize('name', list(writable))

@@ -27,7 +27,7 @@ namespace {
 
 void edgeGeometry(const FourPoints& p, const EdgeShape& shape, EdgeGeometry& g)
 {
-	g.active        = false;
+	g.active       = false;
 	const Vec2 &a0 = p[0], &a1 = p[1], &b0 = p[2], &b1 = p[3];
 	const Vec2  A = a1 - a0, B = b1 - b0;
 	const Real  facing = -A.dot(B);
@@ -72,8 +72,10 @@ void edgeGeometry(const FourPoints& p, const EdgeShape& shape, EdgeGeometry& g)
 	g.lengthSlope   = ramp.value + g.y * ramp.slope / (2 * rho);
 
 	const Real overlap = positive(g.y);
-	g.reach            = { overlap - (1 - g.lambda[0]) * g.x[0], overlap - (1 - g.lambda[1]) * g.x[1], overlap + g.lambda[1] * g.x[1], overlap + g.lambda[0] * g.x[0] };
-	g.q                = goneFrom / (shape.depthLimit * shape.depthLimit);
+	g.reach            = {
+			   overlap - (1 - g.lambda[0]) * g.x[0], overlap - (1 - g.lambda[1]) * g.x[1], overlap + g.lambda[1] * g.x[1], overlap + g.lambda[0] * g.x[0]
+	};
+	g.q = goneFrom / (shape.depthLimit * shape.depthLimit);
 	for (int i = 0; i < 4; ++i) {
 		if (shape.sharpness[i] == 0) continue;
 		if (!(g.reach[i] > 0)) return;
@@ -95,9 +97,9 @@ void addNormalForces(const FourPoints& p, const EdgeShape& shape, const EdgeGeom
 {
 	const Vec2 &a0 = p[0], &a1 = p[1], &b0 = p[2], &b1 = p[3];
 	const Real  w = scale * g.c * g.c / 4, wL = w * g.length;
-	const Real  bySum = wL * (g.h + g.q * g.hSlope); // dU/d(sum), by way of q too
-	const Real  byC   = scale * g.c / 2 * g.length * g.sum * g.h;
-	Real        byY   = w * g.sum * g.h * g.lengthSlope;
+	const Real  bySum  = wL * (g.h + g.q * g.hSlope); // dU/d(sum), by way of q too
+	const Real  byC    = scale * g.c / 2 * g.length * g.sum * g.h;
+	Real        byY    = w * g.sum * g.h * g.lengthSlope;
 	Real        byX[2] = { 0, 0 }, byR[2] = { 0, 0 };
 	for (int k : { 0, 1 })
 		if (g.muSlope[k] != 0) {

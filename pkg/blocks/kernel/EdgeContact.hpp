@@ -22,29 +22,29 @@ namespace blocks {
 
 /// What does not change about a pair of edges. Corners in the order a0, a1, b0, b1.
 struct EdgeShape {
-	std::array<Real, 4> sharpness; ///< 1/tan^2(beta/2); 0 where the outline is straight or bends inward [-]
-	std::array<Real, 2> rounding;  ///< rho of the vertices a0 and b1, a1 and b0 [m]
+	std::array<Real, 4> sharpness;   ///< 1/tan^2(beta/2); 0 where the outline is straight or bends inward [-]
+	std::array<Real, 2> rounding;    ///< rho of the vertices a0 and b1, a1 and b0 [m]
 	std::array<Real, 2> farRounding; ///< rho of the vertices a1 and b1, a0 and b0 [m]
-	Real                depthLimit; ///< depth at which the contact is lost [m]
+	Real                depthLimit;  ///< depth at which the contact is lost [m]
 };
 
 /// Where two edges are with respect to each other.
 struct EdgeGeometry {
-	bool                active = false;   ///< whether they touch; the rest counts only if they do
+	bool                active = false;                       ///< whether they touch; the rest counts only if they do
 	Vec2                eA { 0, 0 }, eB { 0, 0 }, t { 0, 0 }; ///< unit vectors
-	Real                invA, invB;       ///< 1/length [1/m]
-	Real                c, bisector;      ///< -e_A.e_B; |e_A - e_B|
-	std::array<Real, 2> x;                ///< lead of A's vertex over B's at either end [m]
-	std::array<Real, 2> lambda, slope;    ///< share of A's vertex in the length's end, and its derivative [1/m]
-	std::array<Real, 2> mu, muSlope;      ///< ... in the depth; derivative by x/r [-]
-	std::array<Real, 2> depthA, depthB;   ///< of A's and B's vertices, not negative [m]
-	std::array<Real, 2> depth;            ///< of the two ends [m]
-	Real                y;                ///< overlap; negative if there is none [m]
-	Real                length, lengthSlope; ///< L, dL/dy
-	Real                sum;              ///< d0^2 + d1^2 [m2]
-	Real                h, hSlope, q;     ///< validity, dh/dq
-	std::array<Real, 4> reach;            ///< X of the corners [m]
-	Real                area;             ///< of each end, per thickness: normal stiffness / kn [m]
+	Real                invA, invB;                           ///< 1/length [1/m]
+	Real                c, bisector;                          ///< -e_A.e_B; |e_A - e_B|
+	std::array<Real, 2> x;                                    ///< lead of A's vertex over B's at either end [m]
+	std::array<Real, 2> lambda, slope;                        ///< share of A's vertex in the length's end, and its derivative [1/m]
+	std::array<Real, 2> mu, muSlope;                          ///< ... in the depth; derivative by x/r [-]
+	std::array<Real, 2> depthA, depthB;                       ///< of A's and B's vertices, not negative [m]
+	std::array<Real, 2> depth;                                ///< of the two ends [m]
+	Real                y;                                    ///< overlap; negative if there is none [m]
+	Real                length, lengthSlope;                  ///< L, dL/dy
+	Real                sum;                                  ///< d0^2 + d1^2 [m2]
+	Real                h, hSlope, q;                         ///< validity, dh/dq
+	std::array<Real, 4> reach;                                ///< X of the corners [m]
+	Real                area;                                 ///< of each end, per thickness: normal stiffness / kn [m]
 };
 
 using FourPoints = std::array<Vec2, 4>; ///< at a0, a1, b0, b1

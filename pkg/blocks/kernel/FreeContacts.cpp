@@ -34,7 +34,7 @@ namespace {
 	/// Corners and sizes in the reference positions, so that they never change.
 	void computeShapes(BlockAssembly& a)
 	{
-		FreeContacts& f = a.contacts;
+		FreeContacts& f     = a.contacts;
 		const int     edges = int(a.edgeNodes.size());
 		f.sharpness.assign(a.nodeCount(), 0);
 		f.rounding.assign(a.nodeCount(), 0);
@@ -46,10 +46,10 @@ namespace {
 			const Vec2 in = a.reference[to] - a.reference[from], out = a.reference[next] - a.reference[to];
 			const Real lengths = in.norm() * out.norm(), sine = cross(in, out) / lengths, cosine = in.dot(out) / lengths;
 			// the outline turns left by the angle of (cosine, sine) = pi - beta, so 1/tan(beta/2) = tan(turn/2)
-			const Real tangent = sine / std::max(1 + cosine, std::numeric_limits<Real>::epsilon()); // negative where it bends inward
+			const Real tangent  = sine / std::max(1 + cosine, std::numeric_limits<Real>::epsilon()); // negative where it bends inward
 			const Real straight = 1e-9; // an outline that turns by less than this [rad] goes straight on
-			f.sharpness[to]    = tangent > straight ? tangent * tangent : 0;
-			f.rounding[to]     = roundingFraction * std::min(in.norm(), out.norm());
+			f.sharpness[to]     = tangent > straight ? tangent * tangent : 0;
+			f.rounding[to]      = roundingFraction * std::min(in.norm(), out.norm());
 		}
 		f.depthLimit.resize(a.blockCount());
 		f.meanEdge.resize(a.blockCount());
@@ -127,7 +127,8 @@ namespace {
 	std::vector<std::array<int, 2>> bondedEdges(const BlockAssembly& a, const std::array<int, 2>& blocks)
 	{
 		std::vector<std::array<int, 2>> list;
-		const auto pair = std::lower_bound(a.pairs.begin(), a.pairs.end(), blocks, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
+		const auto                      pair
+			= std::lower_bound(a.pairs.begin(), a.pairs.end(), blocks, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
 		if (pair == a.pairs.end() || pair->block != blocks) return list;
 		for (int s = pair->first; s < pair->last; ++s)
 			if (!isReleased(a.contacts, s)) list.push_back(edgesOf(a, a.segments[s]));
@@ -138,7 +139,7 @@ namespace {
 	/// Looks for the edge pairs of a contact; those that it had keep their slip.
 	void detect(BlockAssembly& a, FreeContact& contact)
 	{
-		const FreeContacts& f = a.contacts;
+		const FreeContacts& f      = a.contacts;
 		const auto          bonded = bondedEdges(a, contact.block);
 		// each block's vertices may have moved by mayMove since they were last looked at, and will again
 		const Real margin = 2 * FreeContacts::mayMove * (f.meanEdge[contact.block[0]] + f.meanEdge[contact.block[1]]);
@@ -194,7 +195,7 @@ namespace {
 		for (int i : { 2 * segment, 2 * segment + 1 }) {
 			const ContactPoint& p = a.points[i];
 			if (p.joint.status == Joint::intact || p.sigma > 0) return false; // residual tension stays with the point law
-			if (joint.tanDilation > 0 && p.sigma < 0) return false;            // so does a joint that stands on its asperities
+			if (joint.tanDilation > 0 && p.sigma < 0) return false;           // so does a joint that stands on its asperities
 		}
 		return true;
 	}
@@ -216,7 +217,8 @@ namespace {
 		detect(a, contact);
 		for (int s : broken) {
 			const auto key = edgesOf(a, a.segments[s]);
-			auto       at  = std::lower_bound(contact.edges.begin(), contact.edges.end(), key, [](const EdgePair& e, const std::array<int, 2>& k) { return e.edge < k; });
+			auto       at  = std::lower_bound(
+                                contact.edges.begin(), contact.edges.end(), key, [](const EdgePair& e, const std::array<int, 2>& k) { return e.edge < k; });
 			if (at == contact.edges.end() || at->edge != key) { // they have come far apart
 				a.segments[s].area = 0;
 				continue;
@@ -304,10 +306,10 @@ void prepareContacts(BlockAssembly& a)
 	// contacts that were asked for; a block that had none starts being watched here
 	bool created = false;
 	auto watch   = [&](int block) {
-		const bool watched = !f.firstOfBlock.empty() && block + 1 < int(f.firstOfBlock.size()) && f.firstOfBlock[block] != f.firstOfBlock[block + 1];
-		if (!watched)
-			for (int n = a.firstNode[block]; n < a.firstNode[block + 1]; ++n)
-				f.detectedAt[n] = a.position[n];
+                const bool watched = !f.firstOfBlock.empty() && block + 1 < int(f.firstOfBlock.size()) && f.firstOfBlock[block] != f.firstOfBlock[block + 1];
+                if (!watched)
+                        for (int n = a.firstNode[block]; n < a.firstNode[block + 1]; ++n)
+                                f.detectedAt[n] = a.position[n];
 	};
 	std::sort(f.requests.begin(), f.requests.end());
 	f.requests.erase(std::unique(f.requests.begin(), f.requests.end()), f.requests.end());
@@ -361,10 +363,11 @@ void updateContact(BlockAssembly& a, int contact)
 	FreeContact& c = a.contacts.all[contact];
 	c.active.clear();
 	for (int i = 0; i < int(c.edges.size()); ++i) {
-		EdgePair& e       = c.edges[i];
+		EdgePair&  e      = c.edges[i];
 		const bool before = e.active();
 		edgeGeometry(corners(a, e), e.shape, e.geometry);
-		if (e.active()) c.active.push_back(i);
+		if (e.active())
+			c.active.push_back(i);
 		else if (before || e.area > 0) { // they have parted
 			c.friction += shearEnergy(c, e);
 			e.slip = e.sigma = e.tau = { 0, 0 };
@@ -395,12 +398,13 @@ void advanceContact(BlockAssembly& a, int contact, Real dt)
 				for (int i = 0; i < 4; ++i)
 					ds += dt * end.slipGradient[i].dot(a.velocity[e.node[i]]);
 				const Real old = e.slip[k] * regrown, limit = (joint.cohesionResidual + pressure * joint.tanPhiResidual) / joint.ks;
-				e.slip[k]      = std::clamp(old + ds, -limit, limit);
+				e.slip[k]       = std::clamp(old + ds, -limit, limit);
 				const Real drag = joint.ks * area * e.slip[k];
 				work            = (joint.ks * area * old + drag) / 2 * ds;
 				for (int i = 0; i < 4; ++i)
 					e.force[i] -= drag * end.slipGradient[i];
-			} else e.slip[k] = 0;
+			} else
+				e.slip[k] = 0;
 			c.friction += work + before - joint.ks * area * e.slip[k] * e.slip[k] / 2;
 			e.sigma[k] = -pressure;
 			e.tau[k]   = joint.ks * e.slip[k];

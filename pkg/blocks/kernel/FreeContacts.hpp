@@ -41,9 +41,9 @@ struct FreeContact {
 
 struct FreeContacts {
 	// ---- saved
-	std::vector<FreeContact> all; ///< an index stays valid while its contact lives
-	std::vector<Vec2>        detectedAt; ///< positions at which the edge pairs of the node's block were last looked for [m]
-	std::vector<char>        released;   ///< segment -> its edges have become a free pair; empty before the first release
+	std::vector<FreeContact> all;              ///< an index stays valid while its contact lives
+	std::vector<Vec2>        detectedAt;       ///< positions at which the edge pairs of the node's block were last looked for [m]
+	std::vector<char>        released;         ///< segment -> its edges have become a free pair; empty before the first release
 	Real                     lostFriction = 0; ///< dissipated by contacts that are no more [J]
 
 	// ---- asked for, until the next prepareContacts
@@ -51,11 +51,11 @@ struct FreeContacts {
 	std::vector<char>               releasable; ///< pair of bonded blocks -> it may have segments to release
 
 	// ---- computed again after loading
-	std::vector<int>  order;               ///< contacts sorted by blocks
+	std::vector<int>  order;                 ///< contacts sorted by blocks
 	std::vector<int>  firstOfBlock, ofBlock; ///< block -> its contacts, sorted by the other block; empty without contacts
-	std::vector<Real> sharpness, rounding; ///< of grid points on outlines, see EdgeShape
-	std::vector<int>  edgeFrom;            ///< grid point -> the boundary edge that starts there, or -1
-	std::vector<Real> depthLimit, meanEdge; ///< of blocks [m]
+	std::vector<Real> sharpness, rounding;   ///< of grid points on outlines, see EdgeShape
+	std::vector<int>  edgeFrom;              ///< grid point -> the boundary edge that starts there, or -1
+	std::vector<Real> depthLimit, meanEdge;  ///< of blocks [m]
 
 	long version = 0; ///< grows whenever nodalStiffness may have changed
 
@@ -104,11 +104,11 @@ Real contactFriction(const BlockAssembly&); ///< dissipated by friction in all c
 
 /// An end of an edge pair as Python sees it: where, which way, how deep, how much.
 struct ContactEnd {
-	Vec2 position; ///< midway between the edges [m]
-	Vec2 normal;   ///< out of the first block
-	Real depth;    ///< [m]
+	Vec2 position;   ///< midway between the edges [m]
+	Vec2 normal;     ///< out of the first block
+	Real depth;      ///< [m]
 	Real sigma, tau; ///< [Pa]
-	Real area;     ///< [m2]
+	Real area;       ///< [m2]
 };
 ContactEnd contactEnd(const BlockAssembly&, const EdgePair&, int k);
 

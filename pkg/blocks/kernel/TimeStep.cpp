@@ -35,7 +35,6 @@ std::vector<Real> nodalStiffness(const BlockAssembly& a)
 		for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z)
 			addZone(a, z, moduli, stiffness);
 	}
-	const std::vector<Real> ofZones = a.contacts.order.empty() ? std::vector<Real>() : stiffness;
 	for (size_t pair = 0; pair < a.pairs.size(); ++pair) {
 		const JointParams& joint = a.joints[pair];
 		const Real         k     = std::max(joint.kn, joint.ks) + joint.kn * joint.tanDilation;
@@ -48,10 +47,10 @@ std::vector<Real> nodalStiffness(const BlockAssembly& a)
 			}
 		}
 	}
-	if (!ofZones.empty()) { // a stretch of an edge is bonded or free, not both, and the contacts' share is the larger one
+	if (!a.contacts.order.empty()) { // a grid point may have an intact joint on one edge and a free contact on the other
 		const std::vector<Real> contacts = contactStiffness(a);
 		for (int n = 0; n < a.nodeCount(); ++n)
-			stiffness[n] = std::max(stiffness[n], ofZones[n] + contacts[n]);
+			stiffness[n] += contacts[n];
 	}
 	return stiffness;
 }

@@ -1,0 +1,29 @@
+# yade-blocks, GPL-2.0-or-later
+"""The shape of the house: dependencies point one way."""
+import re
+from pathlib import Path
+
+import pytest
+
+house = Path(__file__).resolve().parents[2]
+includes = lambda path: re.findall(r'^\s*#\s*include\s*([<"][^>"]+[>"])', path.read_text(), re.M)
+
+
+@pytest.mark.parametrize('path', sorted((house / 'pkg/blocks/kernel').iterdir()), ids=lambda path: path.name)
+def test_kernelKnowsNoYade(path):
+	yade = [name for name in includes(path) if re.match(r'["<](core|lib|pkg|py)/|[<"]boost/python|[<"]Python', name)]
+	assert not yade and 'namespace yade' not in path.read_text()
+
+
+def test_kernelKnowsNoAdapter():
+	adapters = {path.name for path in (house / 'pkg/blocks').glob('*.hpp')}
+	for path in (house / 'pkg/blocks/kernel').iterdir():
+		assert not adapters & {Path(name.strip('<>"')).name for name in includes(path) if 'kernel/' not in name} - {p.name for p in path.parent.iterdir()}, path
+
+
+def test_noStrangeTopLevel():
+	import subprocess
+	listed = subprocess.run(['git', 'ls-files'], cwd=house, capture_output=True, text=True)
+	if listed.returncode: pytest.skip('no git checkout')
+	top = {name.split('/')[0] for name in listed.stdout.split()}
+	assert {name for name in top if not name.startswith('.')} <= {'CMakeLists.txt', 'pkg', 'py', 'scripts', 'tests', 'README.md', 'LICENSE', 'CHANGELOG.md'}
