@@ -4,7 +4,7 @@
 Five bricks of 285 x 130 x 50 mm and four mortar joints of 10 mm, all made of Voronoi blocks, between smooth platens; the paper shows the
 lateral view, 130 mm wide. The top platen comes down at 0.01 mm/s. Stress is its force by its area, strain its path by the height.
 
-	scripts/run.sh compression [unitSize=0.01] [mortarSize=0.003] [residualFriction=zero|kept] [key=value ...]        about 10 s a seed
+	scripts/run.sh compression [unitSize=0.01] [mortarSize=0.003] [residualFriction=zero|kept] [key=value ...]        about 20 s a seed
 
 Expected: strength 27.5 N/mm2, modulus 4100 N/mm2 (fitted between 5 % and 33 % of the strength), vertical splitting of the bricks.
 Size means the mean edge length, as in UDEC, unless sizeMeaning=sqrtArea. Tables 8 and 9 give a residual cohesion and no residual
@@ -33,7 +33,7 @@ mortarJoint = dict(kn=348e9, ks=174e9, frictionAngle=radians(15), cohesion=1.4e6
 brickJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, cohesionResidual=3e6, tension=7.5e6) # Table 9
 velocity = 0.01e-3 # [m/s]
 
-common = scenario.commonParameters(sizeMeaning='edge', lloyd=1, steps=30000, alpha=0.2)
+common = scenario.commonParameters(sizeMeaning='edge', lloyd=3, steps=30000, alpha=0.2)
 del common['size']
 p = scenario.parameters(
 	{**common, 'unitSize': 0.01, 'mortarSize': 0.003, 'residualFriction': 'zero', 'width': 0.285, 'stroke': 3.6e-3, 'merge': 0.1, 'halfRate': False, 'vtk': True},

@@ -5,7 +5,7 @@ Two clay bricks, 200 x 50 x 50 mm, and a mortar joint of 15 mm made of Voronoi b
 down by sigma, staying parallel as under a stiff platen, and then moves sideways at 0.2 mm/s. Stress is the horizontal force on the
 top edge by its area, displacement the mean slip across the mortar layer.
 
-	scripts/run.sh shear [sigma=0.1e6|0.5e6|1e6] [key=value ...]        about 4 s a seed
+	scripts/run.sh shear [sigma=0.1e6|0.5e6|1e6] [key=value ...]        about 12 s a seed
 
 Expected: peak 0.87 + 1.01 sigma, residual 0.73 sigma (N/mm2): the experiment's cohesion, friction and residual friction.
 Size means sqrt(mean area) unless sizeMeaning=edge. halfRate=true repeats every run at half the loading rate and reports the change of the peak.

@@ -98,7 +98,7 @@ def test_theColliderSleepsUntilSomethingMoves():
 	assert contacts.colliderRuns <= 2
 	end = [end for i in O.interactions if 3 in (i.id1, i.id2) for end in i.geom.ends]
 	pressed = sum(-e['sigma'] * e['area'] for e in end)
-	assert pressed > 0 and all(abs(e['normal'][1]) > 0.99 for e in end if e['sigma'] < 0)
+	assert pressed > 0 and all(abs(e['normal'][1]) > 0.99 for e in end if e['area'] > 1e-6 * 0.1 * 0.1) # corners carry areas of rounding
 
 
 def test_blocksThatPartAreForgotten():
