@@ -1,8 +1,8 @@
 # yade-blocks, GPL-2.0-or-later
 """Compression of a masonry prism (paper, section 3.3; experiment of Oliveira 2003).
 
-Five bricks of 285 x 130 x 50 mm and four mortar joints of 10 mm, all made of Voronoi blocks, between smooth platens; the paper shows the
-lateral view, 130 mm wide. The top platen comes down at 0.01 mm/s. Stress is its force by its area, strain its path by the height.
+Five bricks of 285 x 130 x 50 mm and four mortar joints of 10 mm, all made of Voronoi blocks, between smooth platens; the model is
+the front view, 285 mm wide (the paper's Fig. 20d speaks of a lateral view: width=0.13). The top platen comes down at 0.01 mm/s. Stress is its force by its area, strain its path by the height.
 
 	scripts/run.sh compression [unitSize=0.01] [mortarSize=0.003] [residualFriction=zero|kept] [key=value ...]        about 20 s a seed
 
