@@ -1,6 +1,5 @@
 // yade-blocks, GPL-2.0-or-later
 #include "BlockContacts.hpp"
-#include "Block.hpp"
 #include <blocks/kernel/FreeContacts.hpp>
 #include <core/Aabb.hpp>
 #include <core/Body.hpp>

@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
+#include "Block.hpp"
 #include "BlockEngines.hpp"
 #include <core/Dispatching.hpp>
 

@@ -29,7 +29,7 @@ def scene(gap=1e-4, drop=True, gravity=(0, -g)):
 	O.engines = [
 		BlockContacts(label='contacts'), InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0),
 		InteractionLoop([Ig2_Block_Block_BlockGeom()], [Ip2_BlockMat_BlockMat_JointPhys(joints=[JointMat(**joint)])], [Law2_BlockGeom_JointPhys_MohrCoulomb()]),
-		BlockTimeStepper(quasiStatic=False, safety=0.3), BlockForces(), BlockIntegrator(damping='none')]
+		BlockTimeStepper(quasiStatic=False, safety=0.3), BlockForces(), BlockIntegrator(damping='none', rescueFile='')]
 	return model
 
 
@@ -67,9 +67,9 @@ def test_frictionDecidesBetweenStickingAndSliding():
 	for tangent, slides in ((0.98 * mu, False), (1.3 * mu, True)):
 		angle = math.atan(tangent)
 		model = scene(gap=0, gravity=(g * math.sin(angle), -g * math.cos(angle)))
-		O.engines = O.engines[:-1] + [BlockIntegrator(damping='local', alpha=0.5)]
+		O.engines = O.engines[:-1] + [BlockIntegrator(damping='local', alpha=0.5, rescueFile='')]
 		O.run(3000, True)
-		O.engines = O.engines[:-1] + [BlockIntegrator(damping='none')]
+		O.engines = O.engines[:-1] + [BlockIntegrator(damping='none', rescueFile='')]
 		before, time = meanVelocity(model)[0], O.time
 		O.run(6000, True)
 		acceleration = (meanVelocity(model)[0] - before) / (O.time - time)
