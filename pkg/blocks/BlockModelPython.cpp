@@ -266,6 +266,17 @@ namespace {
 #define VIEW_FIELD(use, name, Number, member, Item, field, columns, doc) \
 	.add_property(#name, py::make_function(+[](py::object self) -> py::object { return view<Number>(self, arrays(self).member, columns, Use::use, offsetof(blocks::Item, field)); }), doc)
 
+	py::dict zoneQuality(const BlockModel& m)
+	{
+		if (m.assembly.zoneCount() == 0) throw std::runtime_error("BlockModel.zoneQuality: the model has no zones yet");
+		const auto q = blocks::quality({ m.assembly.reference, {}, m.assembly.zoneNodes });
+		py::dict   out;
+		out["minAngle"] = q.minAngle, out["maxAngle"] = q.maxAngle;
+		out["minArea"] = q.minArea, out["maxArea"] = q.maxArea;
+		out["worstAspect"] = q.worstAspect;
+		return out;
+	}
+
 	int  blockCount(const BlockModel& m) { return m.assembly.blockCount(); }
 	int  nodeCount(const BlockModel& m) { return m.assembly.nodeCount(); }
 	int  zoneCount(const BlockModel& m) { return m.assembly.zoneCount(); }
@@ -311,6 +322,8 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 	             "Sum of unbalanced |force| over free degrees of freedom by twice the sum of contact |forces|, the latter at least floor [N]. YADE's utils.unbalancedForce() knows nothing of grid points.")
 	        .def("kineticEnergy", &kineticEnergy, "Kinetic energy, with the scaled masses if masses are scaled [J].")
 	        .def("zoneStress", py::make_function(&zoneStress), "Cauchy stress of every zone: sxx, syy, sxy, tension positive; shape (zones, 3) [Pa]. A copy.")
+	        .def("zoneQuality", &zoneQuality,
+	             "Quality of the mesh, a dictionary: minAngle, maxAngle [rad], minArea, maxArea [m2], worstAspect (longest edge by least height, 1 for an equilateral triangle).")
 	        .def("contactPositions", py::make_function(&contactPositions), "Positions of the contact points, shape (contact points, 2) [m]. A copy.")
 	        .add_property("blockCount", &blockCount, "Number of blocks.")
 	        .add_property("nodeCount", &nodeCount, "Number of grid points.")

@@ -122,3 +122,16 @@ def test_readingCostsNoCopy():
 	for name in names:
 		one, two = getattr(m, name), getattr(m, name)
 		assert one.__array_interface__['data'][0] == two.__array_interface__['data'][0], name
+
+
+def test_zoneQualityIsThatOfTheZones():
+	"""A square with a point in its middle: four right isosceles triangles."""
+	materials()
+	model = BlockModel(thickness=0.1)
+	with pytest.raises(RuntimeError, match='no zones'): model.zoneQuality()
+	model.addRegion(rectangle(0, 0, 2, 2), 'unit', zoneSize=2, zoning='fan')
+	q = model.zoneQuality()
+	# angles to rounding; longest edge 2 by least height 1, and an equilateral triangle has 2/sqrt(3)
+	assert q['minAngle'] == pytest.approx(np.pi / 4) and q['maxAngle'] == pytest.approx(np.pi / 2)
+	assert q['minArea'] == pytest.approx(1) and q['maxArea'] == pytest.approx(1)
+	assert q['worstAspect'] == pytest.approx(2 / (2 / np.sqrt(3)))
