@@ -60,8 +60,8 @@ def build(seed, dt):
 
 def shear(seed, steps, label):
 	"""Presses, then shears over the whole stroke. The model and the columns: displacement [m], stress [Pa], uplift [m], broken contact points, unbalanced ratio."""
-	O_dt = p.stroke / velocity / steps
-	model = build(seed, O_dt)
+	dt = p.stroke / velocity / steps
+	model = build(seed, dt)
 	below, above = nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit')
 	slip, uplift = Gauge(model, below, above, 'x'), Gauge(model, below, above, 'y')
 	history = []
@@ -70,7 +70,7 @@ def shear(seed, steps, label):
 		history.append((slip(), model.groupForce('shear') / area, uplift(), np.count_nonzero(model.pointStatus), model.unbalancedRatio(floor=1e-3 * max(p.sigma, joint['tension']) * area)))
 		progress(O.iter)
 
-	O.dt = O_dt
+	O.dt = dt
 	O.engines = [
 		BlockContacts(),                                           # broken joints may slide on, part and meet again
 		InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0),   # woken where something moved far enough

@@ -87,11 +87,11 @@ void BlockForces::gather()
 	blocks::gatherForces(a, threads);
 	model.forcesAt = scene->iter;
 
-	if (!scene->trackEnergy) return;
-	if (modelOf.changed) {
+	if (modelOf.changed) { // whether or not energy is tracked now: it may be later
 		dissipation = {};
 		frictionId = fractureId = -1;
 	}
+	if (!scene->trackEnergy) return;
 	if (dissipation.before.size() != a.points.size()) dissipation.start(a);
 	else dissipation.book(a);
 	scene->energy->set(dissipation.friction + blocks::contactFriction(a), "blockFriction", frictionId);

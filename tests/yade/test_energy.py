@@ -95,3 +95,17 @@ def test_switchedOnInTheMiddle():
 	O.run(150, True)
 	e = energies()
 	assert set(e) == entries and abs(sum(e.values()) - start) < 1e-5 * e['blockZones'] # as above, with forces that turn in large strain
+
+
+def test_anEngineForgetsTheAccountsOfAnEarlierScene():
+	"""Also if energy was not tracked when the new scene began. The two couplets are alike, so nothing but the accounts tells them apart."""
+	couplet(trackEnergy=True)
+	kept = O.engines
+	O.run(2000, True)
+	assert O.energy['blockFracture'] > 0
+	couplet()
+	O.engines = kept
+	O.run(10, True)
+	O.trackEnergy = True
+	O.run(10, True) # elastic yet
+	assert O.energy['blockFracture'] == 0
