@@ -144,7 +144,8 @@ namespace {
 	/// Until the next updateContact, which shall look at all pairs.
 	void forgetActive(FreeContact& contact)
 	{
-		contact.restsUntil = 0;
+		contact.allRestUntil = 0;
+		contact.restsUntil.assign(contact.edges.size(), 0);
 		contact.active.clear();
 		contact.geometry.clear();
 		contact.active.reserve(contact.edges.size()); // nothing is allocated inside a step
@@ -413,21 +414,21 @@ void updateContact(BlockAssembly& a, int contact)
 				e.slip = e.sigma = e.tau = { 0, 0 };
 				e.area                   = 0;
 			}
-			e.restsUntil = path + roundingShare * freeDistance(x, e.shape);
-			c.restsUntil = std::min(c.restsUntil, e.restsUntil);
+			c.restsUntil[i] = path + roundingShare * freeDistance(x, e.shape);
+			c.allRestUntil  = std::min(c.allRestUntil, c.restsUntil[i]);
 		}
 		return e.touching = g.active;
 	};
 
 	c.geometry.clear();
-	if (path < c.restsUntil) { // only those that touch may have changed
+	if (path < c.allRestUntil) { // only those that touch may have changed
 		c.active.erase(std::remove_if(c.active.begin(), c.active.end(), [&](int i) { return !look(i); }), c.active.end());
 		return;
 	}
 	c.active.clear();
-	c.restsUntil = std::numeric_limits<Real>::infinity();
+	c.allRestUntil = std::numeric_limits<Real>::infinity();
 	for (int i = 0; i < int(c.edges.size()); ++i)
-		if (!c.edges[i].touching && path < c.edges[i].restsUntil) c.restsUntil = std::min(c.restsUntil, c.edges[i].restsUntil);
+		if (path < c.restsUntil[i]) c.allRestUntil = std::min(c.allRestUntil, c.restsUntil[i]);
 		else if (look(i)) c.active.push_back(i);
 }
 

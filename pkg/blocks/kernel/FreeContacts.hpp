@@ -21,8 +21,7 @@ struct BlockAssembly;
 struct EdgePair {
 	std::array<int, 2>  edge; ///< of the first block and of the second
 	std::array<int, 4>  node; ///< a0, a1, b0, b1
-	bool                touching   = false;
-	Real                restsUntil = 0; ///< if it does not touch: it cannot before the paths of the two blocks add up to this [m]
+	bool                touching = false;
 	std::array<Real, 2> slip { 0, 0 };  ///< elastic slip of the two ends: tau / ks [m]
 	std::array<Real, 2> sigma { 0, 0 }; ///< normal stress of the ends, tension positive [Pa]
 	std::array<Real, 2> tau { 0, 0 };   ///< shear stress; positive drags the first block along e_A [Pa]
@@ -36,10 +35,11 @@ struct EdgePair {
 /// All that happens between two blocks, apart from their bonds.
 struct FreeContact {
 	std::array<int, 2>        block { -1, -1 }; ///< first < second; -1: an empty slot
-	Real                      restsUntil = 0;   ///< the least of those of `edges` [m]
+	Real                      allRestUntil = 0; ///< the least of restsUntil of those that do not touch [m]
 	std::vector<int>          active;           ///< those of `edges` that touch, as of the last updateContact
-	std::vector<EdgeGeometry> geometry;         ///< of each of `active`
 	std::vector<EdgePair>     edges;            ///< sorted by edge
+	std::vector<EdgeGeometry> geometry;         ///< of each of `active`
+	std::vector<Real>         restsUntil;       ///< of each of `edges`: it does not touch before the paths of the two blocks add up to this [m]
 	Real                      friction = 0;     ///< dissipated so far [J]
 	JointParams               joint;            ///< residual values count; kn = 0 until they are known
 };
