@@ -40,6 +40,7 @@ void BlockContacts::update()
 	auto&       a     = model.assembly;
 	if (modelOf.changed || reach.empty()) {
 		reach.clear();
+		nearUntil.assign(a.blockCount(), 0);
 		for (int i = 0; i < a.blockCount(); ++i)
 			reach.push_back(sweepOf(a, i));
 		contactsVersion = 0;
@@ -64,9 +65,12 @@ bool BlockContacts::colliderNeeded(const BlockModel& model)
 	const auto& a = model.assembly;
 	if (modelOf.changed || sortedAt.size() != a.position.size()) return true;
 	for (int block = 0; block < a.blockCount(); ++block) {
-		const Real square = reach[block] * reach[block];
+		if (a.odometer.path[block] < nearUntil[block]) continue;
+		Real square = 0;
 		for (int n = a.firstNode[block]; n < a.firstNode[block + 1]; ++n)
-			if (!((a.position[n] - sortedAt[n]).squaredNorm() <= square)) return true;
+			square = std::max(square, (a.position[n] - sortedAt[n]).squaredNorm());
+		if (!(square <= reach[block] * reach[block])) return true;
+		nearUntil[block] = a.odometer.path[block] + reach[block] - std::sqrt(square);
 	}
 	return false;
 }

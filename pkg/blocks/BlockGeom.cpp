@@ -18,22 +18,21 @@ bool Ig2_Block_Block_BlockGeom::go(
         const bool&,
         const shared_ptr<Interaction>& interaction)
 {
-	const Block*           block1 = static_cast<const Block*>(shape1.get());
-	const Block*           block2 = static_cast<const Block*>(shape2.get());
-	blocks::BlockAssembly& a      = block1->model->assembly;
-	auto*                  geom   = static_cast<BlockGeom*>(interaction->geom.get());
+	auto index = [](const shared_ptr<Shape>& shape) { return static_cast<const Block*>(shape.get())->index; };
+	auto* geom = static_cast<BlockGeom*>(interaction->geom.get());
 	if (!geom) { // a pair that the collider has found; bonded ones have theirs from BlockModel::insert
 		interaction->geom = shared_ptr<BlockGeom>(geom = new BlockGeom);
-		geom->model       = block1->model;
+		geom->model       = static_cast<const Block*>(shape1.get())->model;
 	}
+	blocks::BlockAssembly& a = geom->model->assembly;
 	if (geom->contactsVersion != a.contacts.version) {
 		geom->contactsVersion = a.contacts.version;
-		geom->contact         = a.contacts.order.empty() ? -1 : blocks::contactOf(a, block1->index, block2->index, geom->contact);
+		geom->contact         = a.contacts.order.empty() ? -1 : blocks::contactOf(a, index(shape1), index(shape2), geom->contact);
 	}
 	if (geom->pair >= 0) blocks::updateKinematics(a, a.pairs[geom->pair].first, a.pairs[geom->pair].last);
 	if (geom->contact >= 0) blocks::updateContact(a, geom->contact);
 	else if (geom->pair < 0 && !interaction->isReal()) {
-		if (scene->iter % requestInterval == 0) blocks::requestContact(a, block1->index, block2->index);
+		if (scene->iter % requestInterval == 0) blocks::requestContact(a, index(shape1), index(shape2));
 		return false;
 	}
 	return true;
@@ -63,10 +62,10 @@ py::list BlockGeom::ends() const
 {
 	py::list list;
 	if (!model || contact < 0 || contact >= int(model->assembly.contacts.all.size())) return list;
-	for (const auto& edges : model->assembly.contacts.all[contact].edges) {
-		if (!edges.active()) continue;
+	const auto& free = model->assembly.contacts.all[contact];
+	for (int active = 0; active < int(free.active.size()); ++active)
 		for (int k : { 0, 1 }) {
-			const auto end = blocks::contactEnd(model->assembly, edges, k);
+			const auto end = blocks::contactEnd(model->assembly, free, active, k);
 			py::dict   entry;
 			entry["position"] = Vector2r(end.position);
 			entry["normal"]   = Vector2r(end.normal);
@@ -76,7 +75,6 @@ py::list BlockGeom::ends() const
 			entry["area"]     = end.area;
 			list.append(entry);
 		}
-	}
 	return list;
 }
 

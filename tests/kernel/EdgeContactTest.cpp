@@ -202,6 +202,52 @@ TEST(EdgeContact, SharpTipsFade)
 	EXPECT_EQ(value(0.01, 0.0175), 0);
 }
 
+TEST(EdgeContact, WhatIsFreeStaysFree)
+{
+	// A pair that does not touch still does not after its vertices have moved by the free distance, shared out between the two
+	// edges, each in any direction.
+	RandomEdges edges;
+	auto        direction = [&] {
+                const Real angle = edges.between(0, 2 * M_PI);
+                return Vec2(std::cos(angle), std::sin(angle));
+	};
+	auto touches = [](const FourPoints& p, const EdgeShape& s) {
+		EdgeGeometry g;
+		edgeGeometry(p, s, g);
+		return g.active;
+	};
+	int apart = 0, free = 0, soon = 0;
+	for (int i = 0; i < 20000; ++i) {
+		FourPoints p = edges.points();
+		EdgeShape  s = edges.shape();
+		const Vec2 shift = edges.between(0, 0.1) * direction();
+		p[0] += shift, p[1] += shift;
+		if (touches(p, s)) continue;
+		++apart;
+		const Real distance = freeDistance(p, s);
+		ASSERT_GE(distance, 0);
+		free += distance > 0;
+		bool reached = false;
+		for (int k = 0; k < 40; ++k) {
+			const Real share = edges.between(0, 1);
+			const Vec2 moves[4] = { direction(), direction(), direction(), direction() };
+			auto       moved = [&](Real by) {
+                                FourPoints q = p;
+                                for (int n = 0; n < 4; ++n)
+                                        q[n] += by * (n < 2 ? share : 1 - share) * moves[n];
+                                return q;
+			};
+			ASSERT_FALSE(touches(moved(distance), s)) << i;
+			ASSERT_FALSE(touches(moved(distance * edges.between(0, 1)), s)) << i;
+			reached = reached || touches(moved(30 * distance), s);
+		}
+		soon += distance > 0 && reached;
+	}
+	std::printf("apart: %d, free for some distance: %d, touching at 30 times that: %d\n", apart, free, soon);
+	EXPECT_GT(free, 0.9 * apart);
+	EXPECT_GT(soon, free / 4); // no bound that is safe because it is tiny
+}
+
 TEST(EdgeContact, SlipIsObjective)
 {
 	// Any rigid velocity of both edges makes no slip; the friction's nodal forces are the same vectors, so they have neither a

@@ -84,6 +84,7 @@ struct BlockAssembly {
 
 	// ---- blocks that touch without being bonded
 	FreeContacts contacts;
+	Odometer     odometer;
 
 	// ---- boundary conditions
 	std::vector<MotionGroup> groups;

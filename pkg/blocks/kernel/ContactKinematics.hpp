@@ -54,6 +54,10 @@ inline void updateKinematics(const Segment& g, const Vec2* x, SegmentFrame& fram
 /// Forces on a1, b1, a2, b2 [N].
 inline void segmentForces(const Segment& g, const SegmentFrame& f, const ContactPoint* two, std::array<Vec2, 4>& out)
 {
+	if (g.area == 0) { // released: its edges are a free pair now
+		out.fill(Vec2::Zero());
+		return;
+	}
 	Real a1x = 0, a1y = 0, b1x = 0, b1y = 0, a2x = 0, a2y = 0, b2x = 0, b2y = 0, moment = 0;
 	for (int k = 0; k < 2; ++k) {
 		const Real n = g.area * two[k].sigma, t = g.area * two[k].tau;

@@ -1,5 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include "EdgeContact.hpp"
+#include <algorithm>
+#include <limits>
 
 namespace blocks {
 namespace {
@@ -89,6 +91,42 @@ void edgeGeometry(const FourPoints& p, const EdgeShape& shape, EdgeGeometry& g)
 	g.area          = g.c * g.c * positive(g.length) * positive(g.h + g.q * g.hSlope) / 2;
 	g.depth         = { std::sqrt(square[0]), std::sqrt(square[1]) };
 	g.active        = true;
+}
+
+Real freeDistance(const FourPoints& p, const EdgeShape& shape)
+{
+	const Vec2 &a0 = p[0], &a1 = p[1], &b0 = p[2], &b1 = p[3];
+	const Vec2  A = a1 - a0, B = b1 - b0;
+	const Real  lengthA = A.norm(), lengthB = B.norm(), facing = -A.dot(B);
+	// A.B changes by at most 2 delta longest + delta^2, and delta <= longest
+	if (!(facing > 0)) return -facing / (3 * std::max(lengthA, lengthB));
+
+	// When vertices move by delta <= shortest/20, an edge turns by at most 2.2 delta / shortest (the bisector by half as much), so
+	// a vertex' depth, x and y's first term change by at most `rate` delta.
+	const Real shortest = std::min(lengthA, lengthB), rate = 2 + 2.2 * (lengthA + lengthB + (a0 - b1).norm()) / shortest;
+	const Vec2 eA = A / lengthA, eB = B / lengthB, t = (eA - eB).normalized();
+	const std::array<Real, 2> x { (a0 - b1).dot(t), (b0 - a1).dot(t) };
+	const std::array<Real, 2> depthA { -cross(a0 - b0, eB), -cross(a1 - b0, eB) }, depthB { -cross(b1 - a0, eA), -cross(b0 - a0, eA) };
+
+	// No end of the overlap is a vertex with a depth. The blend r changes by at most half as much as a depth.
+	Real noDepth = std::numeric_limits<Real>::infinity(), y = (b0 - b1).dot(t);
+	std::array<Real, 2> lead; // lambda x, whose slope is at most 1.25
+	for (int k : { 0, 1 }) {
+		const Real r = depthBlend * (positive(depthA[k]) + positive(depthB[k]));
+		noDepth      = std::min({ noDepth, std::max(-depthA[k], (-x[k] - r) / 1.5), std::max(-depthB[k], (x[k] - r) / 1.5) });
+		lead[k]      = smoothstep((x[k] / shape.rounding[k] + 1) / 2).value * x[k];
+		y -= lead[k];
+	}
+	// No overlap.
+	const Real noOverlap = (-y - std::max(shape.farRounding[0], shape.farRounding[1])) / 3.5;
+	// Nothing left of the overlap between a sharp corner and its far end: y <= (1 - lambda) x or y <= -lambda x, neither negative.
+	Real noReach = 0;
+	for (int k : { 0, 1 }) {
+		const int ofA = k, ofB = 3 - k;
+		if (shape.sharpness[ofA] > 0) noReach = std::max(noReach, std::min((x[k] - lead[k] - y) / 4.75, x[k]));
+		if (shape.sharpness[ofB] > 0) noReach = std::max(noReach, std::min((-lead[k] - y) / 4.75, -x[k]));
+	}
+	return std::min(std::max({ Real(0), noDepth, noOverlap, noReach }) / rate, shortest / 20);
 }
 
 Real edgePotential(const EdgeGeometry& g) { return g.c * g.c * g.length * g.sum * g.h / 4; }

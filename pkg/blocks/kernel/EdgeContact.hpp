@@ -52,6 +52,10 @@ using FourPoints = std::array<Vec2, 4>; ///< at a0, a1, b0, b1
 /// The geometry of two edges at points a0, a1, b0, b1.
 void edgeGeometry(const FourPoints&, const EdgeShape&, EdgeGeometry&);
 
+/// A distance that the four vertices may move, those of A and those of B taken together, while a pair that does not touch
+/// surely goes on not touching; 0 if none is known [m].
+Real freeDistance(const FourPoints&, const EdgeShape&);
+
 /// U of an active pair, per kn and thickness [m3].
 Real edgePotential(const EdgeGeometry&);
 

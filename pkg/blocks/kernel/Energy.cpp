@@ -91,8 +91,10 @@ Real unbalancedRatio(const BlockAssembly& a, Real floor)
 		contact += a.segments[i / 2].area * (std::abs(p.sigma * f.nx - p.tau * f.ny) + std::abs(p.sigma * f.ny + p.tau * f.nx));
 	}
 	for (int i : a.contacts.order)
-		for (const EdgePair& e : a.contacts.all[i].edges)
-			if (e.active()) contact += (e.force[0] + e.force[1]).lpNorm<1>();
+		for (int e : a.contacts.all[i].active) {
+			const FourPoints& force = a.contacts.all[i].edges[e].force;
+			contact += (force[0] + force[1]).lpNorm<1>();
+		}
 	const Real scale = 2 * std::max(contact, floor);
 	return scale > 0 ? unbalanced / scale : 0;
 }

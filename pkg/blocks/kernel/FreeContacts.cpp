@@ -11,6 +11,8 @@ namespace {
 	/// Edges from how far out of the facing half-circle are kept as candidates: -e_A.e_B above this. The turn that a block can
 	/// make while its vertices move by mayMove is smaller unless it has edges much shorter than its mean one; those see each other late.
 	constexpr Real turnedAway = -0.2;
+	/// Paths are sums over up to 1e9 steps: what is derived from them keeps this much away from rounding.
+	constexpr Real roundingShare = 1 - 1e-6;
 
 	struct Box {
 		Vec2 low, high;
@@ -98,6 +100,9 @@ namespace {
 		e.shape.depthLimit  = std::min(f.depthLimit[a.blockOfNode(A[0])], f.depthLimit[a.blockOfNode(B[0])]);
 	}
 
+	/// The two blocks of a contact together [m].
+	Real pathOf(const BlockAssembly& a, const FreeContact& c) { return a.odometer.path[c.block[0]] + a.odometer.path[c.block[1]]; }
+
 	FourPoints corners(const BlockAssembly& a, const EdgePair& e)
 	{
 		return { a.position[e.node[0]], a.position[e.node[1]], a.position[e.node[2]], a.position[e.node[3]] };
@@ -136,6 +141,17 @@ namespace {
 		return list;
 	}
 
+	/// Until the next updateContact, which shall look at all pairs.
+	void forgetActive(FreeContact& contact)
+	{
+		contact.allRestUntil = 0;
+		contact.restsUntil.assign(contact.edges.size(), 0);
+		contact.active.clear();
+		contact.geometry.clear();
+		contact.active.reserve(contact.edges.size()); // nothing is allocated inside a step
+		contact.geometry.reserve(contact.edges.size());
+	}
+
 	/// Looks for the edge pairs of a contact; those that it had keep their slip.
 	void detect(BlockAssembly& a, FreeContact& contact)
 	{
@@ -170,7 +186,7 @@ namespace {
 			}
 		}
 		contact.edges = std::move(found);
-		contact.active.clear(); // until the next updateContact
+		forgetActive(contact);
 	}
 
 	/// The contact of two blocks, made if there is none.
@@ -275,8 +291,26 @@ void watchForRelease(BlockAssembly& a, int pair)
 		}
 }
 
+void followMotion(BlockAssembly& a)
+{
+	std::vector<Vec2>& seenAt = a.odometer.seenAt;
+	const size_t       known  = std::min(seenAt.size(), a.position.size());
+	seenAt.resize(a.nodeCount());
+	std::copy(a.position.begin() + known, a.position.end(), seenAt.begin() + known);
+	a.odometer.path.resize(a.blockCount(), 0);
+	for (int b = 0; b < a.blockCount(); ++b) {
+		Real farthest = 0;
+		for (int n = a.firstNode[b]; n < a.firstNode[b + 1]; ++n) {
+			farthest  = std::max(farthest, (a.position[n] - seenAt[n]).squaredNorm());
+			seenAt[n] = a.position[n];
+		}
+		a.odometer.path[b] += std::sqrt(farthest);
+	}
+}
+
 void prepareContacts(BlockAssembly& a)
 {
+	followMotion(a);
 	FreeContacts& f        = a.contacts;
 	const auto    anything = std::find(f.releasable.begin(), f.releasable.end(), char(true));
 	if (f.order.empty() && f.requests.empty() && anything == f.releasable.end()) return;
@@ -288,19 +322,23 @@ void prepareContacts(BlockAssembly& a)
 		std::copy(a.position.begin() + known, a.position.end(), f.detectedAt.begin() + known);
 	}
 
+	f.nearUntil.resize(a.blockCount(), 0);
+
 	// blocks with a vertex that has moved too far
 	std::vector<char> moved(a.blockCount(), false);
 	bool              any = false;
 	if (!f.order.empty())
 		for (int b = 0; b < int(f.firstOfBlock.size()) - 1; ++b) {
 			if (f.firstOfBlock[b] == f.firstOfBlock[b + 1]) continue;
-			const Real limit = FreeContacts::mayMove * f.meanEdge[b], square = limit * limit;
+			if (a.odometer.path[b] < f.nearUntil[b]) continue;
+			const Real limit = FreeContacts::mayMove * f.meanEdge[b];
+			Real       square = 0;
 			for (int e = a.firstEdge[b]; e < a.firstEdge[b + 1]; ++e) {
 				const int n = a.edgeNodes[e][0];
-				if ((a.position[n] - f.detectedAt[n]).squaredNorm() <= square) continue;
-				moved[b] = any = true;
-				break;
+				square      = std::max(square, (a.position[n] - f.detectedAt[n]).squaredNorm());
 			}
+			if (square <= limit * limit) f.nearUntil[b] = a.odometer.path[b] + roundingShare * (limit - std::sqrt(square));
+			else moved[b] = any = true;
 		}
 
 	// contacts that were asked for; a block that had none starts being watched here
@@ -360,29 +398,47 @@ void setContactJoint(BlockAssembly& a, int contact, const JointParams& joint)
 
 void updateContact(BlockAssembly& a, int contact)
 {
-	FreeContact& c = a.contacts.all[contact];
-	c.active.clear();
-	for (int i = 0; i < int(c.edges.size()); ++i) {
-		EdgePair&  e      = c.edges[i];
-		const bool before = e.active();
-		edgeGeometry(corners(a, e), e.shape, e.geometry);
-		if (e.active())
-			c.active.push_back(i);
-		else if (before || e.area > 0) { // they have parted
-			c.friction += shearEnergy(c, e);
-			e.slip = e.sigma = e.tau = { 0, 0 };
-			e.area                   = 0;
+	FreeContact& c    = a.contacts.all[contact];
+	const Real   path = pathOf(a, c);
+	EdgeGeometry g;
+
+	/// Whether a pair touches, and what it is like if it does.
+	auto look = [&](int i) {
+		EdgePair&        e = c.edges[i];
+		const FourPoints x = corners(a, e);
+		edgeGeometry(x, e.shape, g);
+		if (g.active) c.geometry.push_back(g);
+		else {
+			if (e.touching || e.area > 0) { // they have parted
+				c.friction += shearEnergy(c, e);
+				e.slip = e.sigma = e.tau = { 0, 0 };
+				e.area                   = 0;
+			}
+			c.restsUntil[i] = path + roundingShare * freeDistance(x, e.shape);
+			c.allRestUntil  = std::min(c.allRestUntil, c.restsUntil[i]);
 		}
+		return e.touching = g.active;
+	};
+
+	c.geometry.clear();
+	if (path < c.allRestUntil) { // only those that touch may have changed
+		c.active.erase(std::remove_if(c.active.begin(), c.active.end(), [&](int i) { return !look(i); }), c.active.end());
+		return;
 	}
+	c.active.clear();
+	c.allRestUntil = std::numeric_limits<Real>::infinity();
+	for (int i = 0; i < int(c.edges.size()); ++i)
+		if (path < c.restsUntil[i]) c.allRestUntil = std::min(c.allRestUntil, c.restsUntil[i]);
+		else if (look(i)) c.active.push_back(i);
 }
 
 void advanceContact(BlockAssembly& a, int contact, Real dt)
 {
 	FreeContact&       c     = a.contacts.all[contact];
 	const JointParams& joint = c.joint;
-	for (int index : c.active) {
-		EdgePair&           e    = c.edges[index];
-		const EdgeGeometry& g    = e.geometry;
+	for (int i = 0; i < int(c.active.size()); ++i) {
+		EdgePair&           e    = c.edges[c.active[i]];
+		const EdgeGeometry& g    = c.geometry[i];
 		const FourPoints    x    = corners(a, e);
 		const Real          area = a.thickness * g.area;
 		e.force.fill(Vec2::Zero());
@@ -467,8 +523,8 @@ Real contactEnergy(const BlockAssembly& a)
 	Real sum = 0;
 	for (int i : a.contacts.order) {
 		const FreeContact& c = a.contacts.all[i];
-		for (const EdgePair& e : c.edges)
-			if (e.active()) sum += c.joint.kn * a.thickness * edgePotential(e.geometry) + shearEnergy(c, e);
+		for (int k = 0; k < int(c.active.size()); ++k)
+			sum += c.joint.kn * a.thickness * edgePotential(c.geometry[k]) + shearEnergy(c, c.edges[c.active[k]]);
 	}
 	return sum;
 }
@@ -481,22 +537,26 @@ Real contactFriction(const BlockAssembly& a)
 	return sum;
 }
 
-ContactEnd contactEnd(const BlockAssembly& a, const EdgePair& e, int k)
+ContactEnd contactEnd(const BlockAssembly& a, const FreeContact& c, int active, int k)
 {
-	const EdgeEnd end = edgeEnd(corners(a, e), e.geometry, k);
-	const Vec2&   t   = e.geometry.t;
-	return { (end.onA + end.onB) / 2, { t.y(), -t.x() }, e.geometry.depth[k], e.sigma[k], e.tau[k], e.area };
+	const EdgePair&     e   = c.edges[c.active[active]];
+	const EdgeGeometry& g   = c.geometry[active];
+	const EdgeEnd       end = edgeEnd(corners(a, e), g, k);
+	return { (end.onA + end.onB) / 2, { g.t.y(), -g.t.x() }, g.depth[k], e.sigma[k], e.tau[k], e.area };
 }
 
 void rebuildContacts(BlockAssembly& a)
 {
 	FreeContacts& f = a.contacts;
 	if (f.all.empty()) return;
+	followMotion(a);
 	computeShapes(a);
 	sortContacts(a);
-	for (FreeContact& c : f.all)
+	for (FreeContact& c : f.all) {
 		for (EdgePair& e : c.edges)
 			nameEdges(a, e);
+		forgetActive(c);
+	}
 }
 
 } // namespace blocks

@@ -11,6 +11,8 @@
 /// A contact of two blocks holds all pairs of their edges that can touch before a vertex of either block has moved by
 /// `mayMove` x its mean edge; then they are looked for anew. What a pair of edges remembers (its slip) is carried over by the
 /// names of its edges, so nothing depends on the order in which contacts were made, or on threads.
+///
+/// Most pairs do not touch. Such a pair rests, without being looked at, until the two blocks have gone so far that it might.
 namespace blocks {
 
 struct BlockAssembly;
@@ -19,7 +21,7 @@ struct BlockAssembly;
 struct EdgePair {
 	std::array<int, 2>  edge; ///< of the first block and of the second
 	std::array<int, 4>  node; ///< a0, a1, b0, b1
-	EdgeGeometry        geometry;
+	bool                touching = false;
 	std::array<Real, 2> slip { 0, 0 };  ///< elastic slip of the two ends: tau / ks [m]
 	std::array<Real, 2> sigma { 0, 0 }; ///< normal stress of the ends, tension positive [Pa]
 	std::array<Real, 2> tau { 0, 0 };   ///< shear stress; positive drags the first block along e_A [Pa]
@@ -27,16 +29,25 @@ struct EdgePair {
 	FourPoints          force;          ///< on the four nodes; meaningful if the pair is active [N]
 	EdgeShape           shape;
 
-	bool active() const { return geometry.active; }
+	bool active() const { return touching; }
 };
 
 /// All that happens between two blocks, apart from their bonds.
 struct FreeContact {
-	std::array<int, 2>    block { -1, -1 }; ///< first < second; -1: an empty slot
-	JointParams           joint;            ///< residual values count; kn = 0 until they are known
-	std::vector<EdgePair> edges;            ///< sorted by edge
-	std::vector<int>      active;           ///< those of `edges` that touch, as of the last updateContact
-	Real                  friction = 0;     ///< dissipated so far [J]
+	std::array<int, 2>        block { -1, -1 }; ///< first < second; -1: an empty slot
+	Real                      allRestUntil = 0; ///< the least of restsUntil of those that do not touch [m]
+	std::vector<int>          active;           ///< those of `edges` that touch, as of the last updateContact
+	std::vector<EdgePair>     edges;            ///< sorted by edge
+	std::vector<EdgeGeometry> geometry;         ///< of each of `active`
+	std::vector<Real>         restsUntil;       ///< of each of `edges`: it does not touch before the paths of the two blocks add up to this [m]
+	Real                      friction = 0;     ///< dissipated so far [J]
+	JointParams               joint;            ///< residual values count; kn = 0 until they are known
+};
+
+/// How far blocks have gone. A vertex moves between two moments by no more than its block's path has grown.
+struct Odometer {
+	std::vector<Vec2> seenAt; ///< of grid points, positions up to which the paths count [m]
+	std::vector<Real> path;   ///< of blocks: the largest step of any of their grid points, summed over the steps [m]
 };
 
 struct FreeContacts {
@@ -56,6 +67,7 @@ struct FreeContacts {
 	std::vector<Real> sharpness, rounding;   ///< of grid points on outlines, see EdgeShape
 	std::vector<int>  edgeFrom;              ///< grid point -> the boundary edge that starts there, or -1
 	std::vector<Real> depthLimit, meanEdge;  ///< of blocks [m]
+	std::vector<Real> nearUntil;             ///< of blocks: no vertex is mayMove from detectedAt before the path is this long [m]
 
 	long version = 0; ///< grows whenever nodalStiffness may have changed
 
@@ -77,7 +89,10 @@ void watchForRelease(BlockAssembly&, int pair);
 /// Makes room for watchForRelease; before the first step, and after bond().
 void enableRelease(BlockAssembly&);
 
-/// Makes the contacts that were asked for, turns broken segments into free edge pairs, looks for edge pairs anew where blocks
+/// Adds the blocks' motion since the last call to their paths.
+void followMotion(BlockAssembly&);
+
+/// Follows the motion, makes the contacts that were asked for, turns broken segments into free edge pairs, looks for edge pairs anew where blocks
 /// have moved, forgets contacts of blocks that are far apart. Serial, once a step.
 void prepareContacts(BlockAssembly&);
 
@@ -102,7 +117,7 @@ std::vector<Real> contactStiffness(const BlockAssembly&);
 Real contactEnergy(const BlockAssembly&);   ///< elastic energy of all contacts [J]
 Real contactFriction(const BlockAssembly&); ///< dissipated by friction in all contacts so far [J]
 
-/// An end of an edge pair as Python sees it: where, which way, how deep, how much.
+/// An end of an active edge pair as Python sees it: where, which way, how deep, how much.
 struct ContactEnd {
 	Vec2 position;   ///< midway between the edges [m]
 	Vec2 normal;     ///< out of the first block
@@ -110,7 +125,7 @@ struct ContactEnd {
 	Real sigma, tau; ///< [Pa]
 	Real area;       ///< [m2]
 };
-ContactEnd contactEnd(const BlockAssembly&, const EdgePair&, int k);
+ContactEnd contactEnd(const BlockAssembly&, const FreeContact&, int active, int k);
 
 /// Computes again what is not saved.
 void rebuildContacts(BlockAssembly&);
