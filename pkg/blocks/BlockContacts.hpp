@@ -40,11 +40,13 @@ public:
 
 private:
 	void update();
+	void refuseOtherShapes() const;
 	bool colliderNeeded(const BlockModel&);
 
 	ModelOfScene modelOf;
 	vector<Real> reach; ///< of every block: the distance that its points may move [m]
 	long         contactsVersion = 0;
+	size_t       bodiesSeen      = 0;
 };
 REGISTER_SERIALIZABLE(BlockContacts);
 
