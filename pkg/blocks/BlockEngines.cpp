@@ -154,6 +154,18 @@ void BlockIntegrator::checkStep(BlockModel& model)
 	checkedDt      = scene->dt;
 }
 
+static void writeCentroids(Scene* scene, const BlockModel& model)
+{
+	const blocks::BlockAssembly& a = model.assembly;
+	for (int i = 0; i < a.blockCount(); ++i) {
+		const auto& body = (*scene->bodies)[model.firstBody + i];
+		if (!body) throw std::runtime_error("body " + std::to_string(model.firstBody + i) + " was erased, but blocks cannot leave their model");
+		if (a.firstZone[i] == a.firstZone[i + 1]) continue; // it was the body that moved
+		const blocks::Vec2 centroid = a.centroid(i);
+		body->state->pos            = Vector3r(centroid.x(), centroid.y(), 0);
+	}
+}
+
 void BlockIntegrator::advance()
 {
 	BlockModel& model = modelOf(scene);
@@ -185,13 +197,7 @@ void BlockIntegrator::advance()
 		scene->energy->set(-blocks::groupWork(a) - blocks::rigidWork(a) - loadWork, "blockWork", workId);
 		pending = work.dampingAfter;
 	}
-	for (int i = 0; i < a.blockCount(); ++i) {
-		const auto& body = (*scene->bodies)[model.firstBody + i];
-		if (!body) throw std::runtime_error("body " + std::to_string(model.firstBody + i) + " was erased, but blocks cannot leave their model");
-		if (a.firstZone[i] == a.firstZone[i + 1]) continue; // it was the body that moved
-		const blocks::Vec2 centroid = a.centroid(i);
-		body->state->pos            = Vector3r(centroid.x(), centroid.y(), 0);
-	}
+	writeCentroids(scene, model);
 }
 
 void BlockIntegrator::watchStability(BlockModel& model)
@@ -204,6 +210,7 @@ void BlockIntegrator::watchStability(BlockModel& model)
 	const long good   = watch.restore(model.assembly);
 	if (good >= 0) {
 		restoreRigidBodies(scene, model);
+		writeCentroids(scene, model);
 		scene->iter = good;
 		scene->time = watch.goodTime();
 		message += "; the last good state, of step " + std::to_string(good) + ", is put back";

@@ -81,10 +81,19 @@ void noteFreedom(const Scene* scene, BlockModel& model)
 	}
 }
 
-void writeMasses(const Scene* scene, const BlockModel& model)
+void writeMasses(const Scene* scene, BlockModel& model)
 {
-	for (const auto& r : model.assembly.rigid) {
-		State& state  = stateOf(scene, model, r);
+	for (auto& r : model.assembly.rigid) {
+		State& state = stateOf(scene, model, r);
+		if (state.mass == r.inertia && state.inertia.z() == r.rotaryInertia) continue;
+		const blocks::Vec3 old { state.mass, state.mass, state.inertia.z() };
+		blocks::Vec3       velocity = inPlane(state.vel, state.angVel); // what is prescribed for the next step is yet to be reached
+		for (int i = 0; i < 3; ++i)
+			if (!r.free[i]) velocity[i] = r.velocity[i];
+		blocks::changeInertia(r, old, velocity);
+		if (r.free[0]) state.vel.x() = velocity[0];
+		if (r.free[1]) state.vel.y() = velocity[1];
+		if (r.free[2]) state.angVel.z() = velocity[2];
 		state.mass    = r.inertia;
 		state.inertia = Vector3r::Constant(r.rotaryInertia);
 	}
@@ -136,8 +145,9 @@ void restoreRigidBodies(const Scene* scene, const BlockModel& model)
 		state.ori    = Quaternionr(r.halfTurn.x(), 0, 0, r.halfTurn.y());
 		state.vel    = { r.velocity[0], r.velocity[1], 0 };
 		state.angVel = { 0, 0, r.velocity[2] };
+		state.mass    = r.inertia;
+		state.inertia = Vector3r::Constant(r.rotaryInertia);
 	}
-	writeMasses(scene, model);
 }
 
 } // namespace yade

@@ -17,8 +17,8 @@ Real newtonDamping(const Engine& newton);
 /// blockedDOFs -> which motions are free; a change is a change of the stable step.
 void noteFreedom(const Scene*, BlockModel&);
 
-/// Masses of the model -> state.mass and state.inertia.
-void writeMasses(const Scene*, const BlockModel&);
+/// Masses of the model -> state.mass and state.inertia, with what follows for the velocity.
+void writeMasses(const Scene*, BlockModel&);
 
 /// Forces of neighbours and loads -> O.forces.
 void addRigidForces(Scene*, BlockModel&);

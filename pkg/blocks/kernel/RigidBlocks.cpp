@@ -52,6 +52,18 @@ void restoreRigidInertia(BlockAssembly& a)
 		r.inertia = r.mass, r.rotaryInertia = r.moment;
 }
 
+void changeInertia(RigidBlock& r, const Vec3& old, Vec3& velocity)
+{
+	Real gained = 0;
+	for (int i = 0; i < 3; ++i) {
+		const Real inertia = i < 2 ? r.inertia : r.rotaryInertia, before = velocity[i];
+		if (r.free[i] && inertia > old[i]) velocity[i] *= old[i] / inertia;
+		gained += (inertia * velocity[i] * velocity[i] - old[i] * before * before) / 2;
+	}
+	r.work += gained;
+	r.workTurnover += std::abs(gained);
+}
+
 void gatherRigidForces(BlockAssembly& a)
 {
 	for (RigidBlock& r : a.rigid) {

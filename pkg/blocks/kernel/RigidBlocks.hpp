@@ -34,6 +34,11 @@ void scaleRigidInertia(BlockAssembly&, const std::vector<Real>& nodalStiffness, 
 /// True masses of rigid blocks.
 void restoreRigidInertia(BlockAssembly&);
 
+/// After one of the two, for a block of that velocity and the old masses (along x, along y, about z): a block that has met others, and so got
+/// a scaled mass thousands of times its own, keeps its momentum and not its speed, or it would strike with energy from nowhere. Along
+/// free directions where the mass falls, the speed stays. What this takes from the kinetic energy is booked as work from outside.
+void changeInertia(RigidBlock&, const Vec3& old, Vec3& velocity);
+
 /// After gatherForces: force and moment of every rigid block, loads included.
 void gatherRigidForces(BlockAssembly&);
 
