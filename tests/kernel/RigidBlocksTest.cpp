@@ -37,7 +37,10 @@ StepWork moveRigid(BlockAssembly& a, Real dt, const Vec3& extra = Vec3::Zero(), 
 	for (RigidBlock& r : a.rigid) {
 		RigidMotion now { r.centre, r.halfTurn, r.velocity, r.force + extra };
 		for (int i = 0; i < 3; ++i)
-			if (r.free[i]) now.velocity[i] += (1 - damping) * dt * now.force[i] / (i < 2 ? r.inertia : r.rotaryInertia);
+			if (r.free[i]) { // local damping
+				const Real dv = dt * now.force[i] / (i < 2 ? r.inertia : r.rotaryInertia);
+				now.velocity[i] += dv - damping * std::copysign(dv, now.velocity[i] + dv / 2);
+			}
 		now.centre += dt * now.velocity.head<2>();
 		const Real half = std::atan2(r.halfTurn.y(), r.halfTurn.x()) + dt * now.velocity[2] / 2;
 		now.halfTurn    = { std::cos(half), std::sin(half) };
