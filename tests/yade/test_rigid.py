@@ -227,6 +227,47 @@ def test_inclineHoldsAndLetsGo():
 		assert block.state.ori.toAxisAngle()[1] == pytest.approx(0, abs=1e-4)
 
 
+def test_whoIsHeldDoesNotLimitTheStep():
+	"""Real masses: the stable step is that of the blocks that may move, as soon as they may."""
+	model, block = incline(math.atan(0.2))
+	stepper = next(e for e in O.engines if isinstance(e, BlockTimeStepper))
+	O.run(100, True)
+	free = stepper.stableStep
+	assert math.isfinite(free) and O.dt == 0.3 * free
+	block.state.blockedDOFs, block.state.vel, block.state.angVel = held, (0, 0, 0), (0, 0, 0)
+	O.run(2, True)
+	assert stepper.stableStep == math.inf and O.dt == 0.3 * free # nothing limits it: it stays
+	block.state.blockedDOFs = 'zXYZ'
+	O.run(2, True)
+	assert free < stepper.stableStep < math.inf # without rotation, and what couples with it
+	O.bodies[0].state.blockedDOFs = 'zXY'
+	block.state.blockedDOFs = 'zXY'
+	O.run(2, True)
+	assert stepper.stableStep <= free
+
+
+def test_aKickAndWhatAContactMakesOfIt():
+	"""Quasi-static: a rigid block falls at its true mass. Where it meets others, its mass is scaled, and it keeps its momentum, not its energy times a thousand."""
+	rigidMaterials()
+	model = BlockModel(thickness=0.1)
+	floor = model.addRigid(rectangle(-1, -0.2, 1, 0), 'steel')
+	block = model.addRigid(rectangle(0, 0.2, 0.1, 0.3), 'steel')
+	model.insert()
+	O.bodies[model.bodyOf(floor)].state.blockedDOFs = held
+	O.trackEnergy = True
+	O.dt, O.engines = 1e-3, movers(between(bonded=False), contacts=True, newton=dict(damping=0))
+	state = O.bodies[model.bodyOf(block)].state
+	state.vel = (0, -1, 0)
+	O.run(50, True)
+	assert state.mass == pytest.approx(7.8, rel=1e-12) and state.vel[1] == -1 and state.pos[1] == pytest.approx(0.2, rel=1e-12)
+	while state.mass < 8: O.run(1, True)
+	assert state.pos[1] > 0.05 and state.mass > 100 * 7.8 # before it touches
+	assert state.mass * state.vel[1] == pytest.approx(-7.8, rel=1e-12)
+	e = entries()
+	assert e['blockKinetic'] == pytest.approx(7.8 / 2 * 7.8 / state.mass, rel=1e-12)
+	assert sum(e.values()) == pytest.approx(7.8 / 2, rel=1e-12) # what it had at the start
+
+
 @pytest.mark.parametrize('tilt', [0, 0.3])
 def test_freeFallAndBounceKeepTheEnergy(tilt):
 	"""A trapezium falls upon a rigid floor without friction, flat or on its corner, and comes up again with all its energy."""
