@@ -51,6 +51,12 @@ namespace serialization {
 		KEEP(velocity), KEEP(travelled), KEEP(force), KEEP(work), KEEP(workTurnover), KEEP(pendingWork);
 	}
 
+	template <class Archive> void serialize(Archive& ar, blocks::RigidBlock& x, unsigned)
+	{
+		KEEP(block), KEEP(origin), KEEP(mass), KEEP(moment), KEEP(inertia), KEEP(rotaryInertia), KEEP(load), KEEP(free);
+		KEEP(centre), KEEP(halfTurn), KEEP(velocity), KEEP(work), KEEP(workTurnover), KEEP(pendingWork);
+	}
+
 	template <class Archive> void serialize(Archive& ar, blocks::JointDissipation::Before& x, unsigned)
 	{
 		KEEP(opening), KEEP(slip), KEEP(sigma), KEEP(tau);
@@ -70,7 +76,7 @@ namespace serialization {
 		KEEP(thickness), KEEP(materials);
 		KEEP(reference), KEEP(position), KEEP(velocity), KEEP(force), KEEP(load), KEEP(mass), KEEP(inertia);
 		KEEP(zoneNodes), KEEP(firstNode), KEEP(firstZone), KEEP(firstEdge), KEEP(blockMaterial), KEEP(edgeNodes);
-		KEEP(segments), KEEP(points), KEEP(pairs), KEEP(joints), KEEP(groups), KEEP(contacts);
+		KEEP(segments), KEEP(points), KEEP(pairs), KEEP(joints), KEEP(groups), KEEP(contacts), KEEP(rigid);
 		if (Archive::is_loading::value) x.rebuild();
 	}
 

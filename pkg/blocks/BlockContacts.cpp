@@ -3,6 +3,7 @@
 #include <blocks/kernel/FreeContacts.hpp>
 #include <core/Aabb.hpp>
 #include <core/Body.hpp>
+#include <core/BodyContainer.hpp>
 
 namespace yade {
 
@@ -38,6 +39,8 @@ void BlockContacts::update()
 {
 	BlockModel& model = modelOf(scene);
 	auto&       a     = model.assembly;
+	if (modelOf.changed || scene->bodies->size() != bodiesSeen) refuseOtherShapes();
+	bodiesSeen = scene->bodies->size();
 	if (modelOf.changed || reach.empty()) {
 		reach.clear();
 		nearUntil.assign(a.blockCount(), 0);
@@ -58,6 +61,17 @@ void BlockContacts::update()
 	if (!needed) return;
 	sortedAt = a.position;
 	++colliderRuns;
+}
+
+void BlockContacts::refuseOtherShapes() const
+{
+	mask_t ofBlocks = 0;
+	for (const auto& body : *scene->bodies)
+		if (dynamic_cast<const Block*>(body->shape.get())) ofBlocks |= body->groupMask;
+	for (const auto& body : *scene->bodies)
+		if (body->shape && !dynamic_cast<const Block*>(body->shape.get()) && (body->groupMask & ofBlocks))
+			throw std::runtime_error("body " + std::to_string(body->id) + " is a " + body->shape->getClassName()
+			                         + ", which blocks cannot touch: use BlockModel.addRigid, or give it a mask that no block has");
 }
 
 bool BlockContacts::colliderNeeded(const BlockModel& model)

@@ -40,12 +40,14 @@ public:
 
 private:
 	void update();
+	void refuseOtherShapes() const;
 	bool colliderNeeded(const BlockModel&);
 
 	ModelOfScene modelOf;
 	vector<Real> reach;     ///< of every block: the distance that its points may move [m]
 	vector<Real> nearUntil; ///< of every block: no point is that far from where it was sorted before the path is this long [m]
 	long         contactsVersion = 0;
+	size_t       bodiesSeen      = 0;
 };
 REGISTER_SERIALIZABLE(BlockContacts);
 

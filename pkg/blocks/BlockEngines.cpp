@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include "BlockEngines.hpp"
+#include "RigidBodies.hpp"
 #include <blocks/kernel/CentralDifference.hpp>
 #include <blocks/kernel/FreeContacts.hpp>
 #include <blocks/kernel/NodalForces.hpp>
@@ -58,19 +59,24 @@ void BlockTimeStepper::adjust(Scene* scene)
 {
 	BlockModel& model = modelOf(scene);
 	model.throwComplaint();
+	noteFreedom(scene, model);
 	if (model.stiffnessVersion() == doneVersion && scene->dt == doneDt && safety == doneSafety && quasiStatic == doneQuasiStatic) return;
 	blocks::require(safety > 0 && safety <= 0.95, "BlockTimeStepper.safety must lie in (0, 0.95]", safety);
 
 	const auto& stiffness = model.stiffness();
-	stableStep           = blocks::stableTimeStep(model.assembly, stiffness, model.assembly.mass);
+	stableStep            = std::min(
+                blocks::stableTimeStep(model.assembly, stiffness, model.assembly.mass), blocks::rigidTimeStep(model.assembly, stiffness, blocks::Masses::actual));
 	if (quasiStatic) {
 		blocks::require(scene->dt > 0 && std::isfinite(scene->dt), "O.dt must be positive and finite [s]", scene->dt);
 		blocks::scaleInertia(model.assembly, stiffness, scene->dt, safety);
+		blocks::scaleRigidInertia(model.assembly, stiffness, scene->dt, safety);
 	} else {
-		scene->dt              = safety * stableStep;
+		if (std::isfinite(stableStep)) scene->dt = safety * stableStep; // rigid blocks that touch nothing have no limit
 		model.assembly.inertia = model.assembly.mass;
 		model.assembly.updateMobility();
+		blocks::restoreRigidInertia(model.assembly);
 	}
+	writeMasses(scene, model);
 	doneVersion     = model.stiffnessVersion();
 	doneDt          = scene->dt;
 	doneSafety      = safety;
@@ -85,6 +91,17 @@ void BlockForces::gather()
 	const int              threads = threadsFor(model, ompThreads);
 	blocks::computeJointForces(a, threads);
 	blocks::gatherForces(a, threads);
+	if (!a.rigid.empty()) {
+		noteFreedom(scene, model);
+		const Engine* newton = requireMovers(scene, model);
+		if (newton && (newton != asked || scene->iter % askPeriod == 0)) {
+			const Real known    = model.newtonDamping;
+			model.newtonDamping = newtonDamping(*newton);
+			if (model.newtonDamping != known) model.stiffnessChanged(); // it lowers the stable step
+		}
+		asked = newton;
+		addRigidForces(scene, model);
+	}
 	model.forcesAt = scene->iter;
 
 	if (modelOf.changed) { // whether or not energy is tracked now: it may be later
@@ -124,12 +141,29 @@ void BlockIntegrator::checkStep(BlockModel& model)
 			                         + " has no properties: O.engines needs an InteractionLoop with Ip2_BlockMat_BlockMat_JointPhys before BlockIntegrator");
 	blocks::require(scene->dt > 0 && std::isfinite(scene->dt), "O.dt must be positive and finite [s]", scene->dt);
 	const Real share = scene->dt / blocks::stableTimeStep(a, model.stiffness(), a.inertia), limit = blocks::largestSafety(law);
+	const Real rigidShare = scene->dt / blocks::rigidTimeStep(a, model.stiffness(), blocks::Masses::resisting), rigidLimit = 0.95 / std::sqrt(1 + model.newtonDamping);
 	blocks::require(share <= limit * (1 + 1e-9),
 	                "O.dt as a fraction of the stable time step must not exceed " + blocks::shown(limit) + " with damping='" + damping
 	                        + "' (smaller O.dt or BlockTimeStepper.safety)",
 	                share);
+	blocks::require(rigidShare <= rigidLimit * (1 + 1e-9),
+	                "O.dt as a fraction of the stable time step of rigid blocks must not exceed " + blocks::shown(rigidLimit) + " with NewtonIntegrator.damping="
+	                        + blocks::shown(model.newtonDamping) + " (smaller O.dt or BlockTimeStepper.safety)",
+	                rigidShare);
 	checkedVersion = model.stiffnessVersion();
 	checkedDt      = scene->dt;
+}
+
+static void writeCentroids(Scene* scene, const BlockModel& model)
+{
+	const blocks::BlockAssembly& a = model.assembly;
+	for (int i = 0; i < a.blockCount(); ++i) {
+		const auto& body = (*scene->bodies)[model.firstBody + i];
+		if (!body) throw std::runtime_error("body " + std::to_string(model.firstBody + i) + " was erased, but blocks cannot leave their model");
+		if (a.firstZone[i] == a.firstZone[i + 1]) continue; // it was the body that moved
+		const blocks::Vec2 centroid = a.centroid(i);
+		body->state->pos            = Vector3r(centroid.x(), centroid.y(), 0);
+	}
 }
 
 void BlockIntegrator::advance()
@@ -153,20 +187,17 @@ void BlockIntegrator::advance()
 	}
 	const Real loadWork = account ? blocks::loadWork(a) : 0;
 	law.c                       = viscosity;
-	const blocks::StepWork work = blocks::integrate(a, law, scene->dt, scene->time, account, threadsFor(model, ompThreads));
+	blocks::StepWork work;
+	if (!a.rigid.empty()) work = followRigidBodies(scene, model);
+	work += blocks::integrate(a, law, scene->dt, scene->time, account, threadsFor(model, ompThreads));
 	viscosity                   = law.c;
 	if (account) {
 		scene->energy->set(work.kinetic, "blockKinetic", kineticId);
 		scene->energy->set(dissipated += pending + work.dampingBefore, "blockDamping", dampingId);
-		scene->energy->set(-blocks::groupWork(a) - loadWork, "blockWork", workId);
+		scene->energy->set(-blocks::groupWork(a) - blocks::rigidWork(a) - loadWork, "blockWork", workId);
 		pending = work.dampingAfter;
 	}
-	for (int i = 0; i < a.blockCount(); ++i) {
-		const auto& body = (*scene->bodies)[model.firstBody + i];
-		if (!body) throw std::runtime_error("body " + std::to_string(model.firstBody + i) + " was erased, but blocks cannot leave their model");
-		const blocks::Vec2 centroid = a.centroid(i);
-		body->state->pos            = Vector3r(centroid.x(), centroid.y(), 0);
-	}
+	writeCentroids(scene, model);
 }
 
 void BlockIntegrator::watchStability(BlockModel& model)
@@ -178,6 +209,8 @@ void BlockIntegrator::watchStability(BlockModel& model)
 	string    message = "unstable at step " + std::to_string(step) + ", block " + std::to_string(verdict.block) + ": " + verdict.reason;
 	const long good   = watch.restore(model.assembly);
 	if (good >= 0) {
+		restoreRigidBodies(scene, model);
+		writeCentroids(scene, model);
 		scene->iter = good;
 		scene->time = watch.goodTime();
 		message += "; the last good state, of step " + std::to_string(good) + ", is put back";

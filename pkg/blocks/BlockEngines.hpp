@@ -74,6 +74,7 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(BlockForces, GlobalEngine,
 		"Unbalanced force of every grid point: loads, joint stresses times areas, zone stresses; summed in a fixed order, so that the same scene gives the same bits on any number of threads. "
+		"Force and torque on rigid blocks go to ``O.forces``, for NewtonIntegrator. "
 		"With ``O.trackEnergy``, ``O.energy`` gets 'blockFriction' and 'blockFracture'.",
 		((blocks::JointDissipation, dissipation, , Attr::hidden, "Accounts, kept only with O.trackEnergy."))
 	);
@@ -82,6 +83,9 @@ public:
 private:
 	ModelOfScene modelOf;
 	int          frictionId = -1, fractureId = -1;
+
+	const Engine*         asked     = nullptr; ///< the NewtonIntegrator that was asked for its attributes last
+	static constexpr long askPeriod = 100;     ///< steps until it is asked again
 };
 REGISTER_SERIALIZABLE(BlockForces);
 
@@ -94,9 +98,10 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(BlockIntegrator, GlobalEngine,
-		"Moves the grid points by central differences (paper, Eqs. 4-9), with damping and prescribed motion, and writes the centroids to ``state.pos``. "
+		"Moves the grid points by central differences (paper, Eqs. 4-9), with damping and prescribed motion, and writes the centroids to ``state.pos``. Grid points of rigid blocks follow their bodies, which NewtonIntegrator has moved. "
 		"A run that turns unstable (a number that is none, or energy that nobody put in) is stopped with a message that names step and block; the last good state is put back and saved. "
-		"With ``O.trackEnergy``, ``O.energy`` gets 'blockKinetic', 'blockZones', 'blockJoints', 'blockDamping' and, negative, 'blockWork' (loads and driven grid points): they sum to zero with the two of BlockForces, less what was there at the start.",
+		"With ``O.trackEnergy``, ``O.energy`` gets 'blockKinetic', 'blockZones', 'blockJoints', 'blockDamping' and, negative, 'blockWork' (loads, driven grid points, and what acts on rigid blocks from outside): they sum to zero with the two of BlockForces, less what was there at the start. "
+		"Rigid blocks are in 'blockKinetic' and NewtonIntegrator's damping of them in 'blockDamping'; what NewtonIntegrator itself writes to ``O.energy`` ('kinetic', 'nonviscDamp') is the same once more, to be left out of the sum.",
 		((string, damping, "local", Attr::triggerPostLoad, "'local': a force of alpha |F| against the motion of each degree of freedom; 'adaptive': the paper's viscous damping, adjusted to the kinetic energy; 'none'."))
 		((Real, alpha, 0.3, Attr::triggerPostLoad, "Coefficient of the local damping, in [0, 1)."))
 		((Real, viscosity, 0, , "Coefficient c of the adaptive damping as it stands now [1/s]."))

@@ -176,6 +176,7 @@ void BlockModel::insert()
 		if (body && body->shape && dynamic_cast<const Block*>(body->shape.get()))
 			throw std::runtime_error("BlockModel.insert: the scene has blocks of another model already; one model holds all blocks of a scene");
 
+	size_t     rigid = 0;
 	const auto self = YADE_PTR_CAST<BlockModel>(shared_from_this());
 	for (int i = 0; i < assembly.blockCount(); ++i) {
 		auto       shape    = shared_ptr<Block>(new Block);
@@ -188,9 +189,16 @@ void BlockModel::insert()
 		for (const auto& material : scene->materials)
 			if (material->label == label) body->material = material;
 		body->state->pos = body->state->refPos = Vector3r(centroid.x(), centroid.y(), 0);
-		body->state->blockedDOFs               = State::DOF_ALL; // the grid points move, not the body
-		for (int n = assembly.firstNode[i]; n < assembly.firstNode[i + 1]; ++n)
-			body->state->mass += assembly.mass[n];
+		if (rigid < assembly.rigid.size() && assembly.rigid[rigid].block == i) {
+			const blocks::RigidBlock& r = assembly.rigid[rigid++];
+			body->state->blockedDOFs    = State::DOF_Z | State::DOF_RX | State::DOF_RY;
+			body->state->mass           = r.inertia;
+			body->state->inertia        = Vector3r::Constant(r.rotaryInertia); // about z; the others only because YADE divides by them
+		} else {
+			body->state->blockedDOFs = State::DOF_ALL; // the grid points move, not the body
+			for (int n = assembly.firstNode[i]; n < assembly.firstNode[i + 1]; ++n)
+				body->state->mass += assembly.mass[n];
+		}
 		const int id = scene->bodies->insert(body);
 		if (i == 0) firstBody = id;
 		if (id != firstBody + i) throw std::runtime_error("BlockModel.insert: body ids are not consecutive; insert blocks before erasing bodies");
@@ -215,6 +223,13 @@ blocks::MotionGroup& BlockModel::group(const std::string& name)
 		known += (known.empty() ? "" : ", ") + g.name;
 	}
 	throw std::invalid_argument("no motion group \"" + name + "\"; there are: " + known);
+}
+
+int BlockModel::bodyOf(int block) const
+{
+	if (firstBody < 0) throw std::runtime_error("BlockModel.bodyOf: blocks have no bodies before BlockModel.insert()");
+	blocks::require(block >= 0 && block < assembly.blockCount(), "BlockModel.bodyOf needs the index of a block", block);
+	return firstBody + block;
 }
 
 YADE_PLUGIN((BlockModel));

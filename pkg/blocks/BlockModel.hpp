@@ -33,6 +33,9 @@ public:
 	/// Step of which the forces are, as BlockForces says.
 	long forcesAt = -1;
 
+	/// Damping of the NewtonIntegrator that moves rigid blocks, as BlockForces says [-].
+	Real newtonDamping = 0;
+
 	/// The scene's model, or an error that says how one gets there.
 	static const shared_ptr<BlockModel>& of(const Scene*);
 
@@ -59,10 +62,13 @@ public:
 
 	blocks::MotionGroup& group(const std::string& name);
 
+	/// Body of a block, or an error if the model is not in a scene yet or has no such block.
+	int bodyOf(int block) const;
+
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(BlockModel, Serializable,
 		"All blocks of a scene in flat arrays: grid points, zones, boundary edges, joints. Build it once (materials, :yref:`addVoronoi<BlockModel.addVoronoi>`, "
-		":yref:`addRegion<BlockModel.addRegion>`, :yref:`bond<BlockModel.bond>`, boundary conditions, :yref:`insert<BlockModel.insert>`), then let the engines work on it. "
+		":yref:`addRegion<BlockModel.addRegion>`, :yref:`addRigid<BlockModel.addRigid>`, :yref:`bond<BlockModel.bond>`, boundary conditions, :yref:`insert<BlockModel.insert>`), then let the engines work on it. "
 		"SI units, tension positive. Once inserted, arrays are numpy views of the model's own memory: reading costs no copy; position and velocity may be written.",
 		((Real, thickness, 1, Attr::triggerPostLoad, "Out-of-plane thickness [m]; to be set before the first block."))
 		((bool, planeStress, false, Attr::triggerPostLoad, "Plane stress instead of plane strain."))

@@ -121,6 +121,30 @@ namespace {
 		return block;
 	}
 
+	int addRigid(BlockModel& model, const py::object& outer, const string& material, const py::object& holes)
+	{
+		model.requireOpen("BlockModel.addRigid");
+		const int             material_ = model.materialIndex(material);
+		const blocks::Polygon region    = polygon(outer, holes);
+		blocks::requireSimple(region, "region");
+		model.requireFree(region);
+		std::vector<Vec2>             points;
+		std::vector<std::vector<int>> rings;
+		auto                          add = [&](const blocks::Ring& ring) {
+                        rings.emplace_back();
+                        for (const Vec2& p : ring) {
+                                rings.back().push_back(int(points.size()));
+                                points.push_back(p);
+                        }
+		};
+		add(region.outer);
+		for (const auto& hole : region.holes)
+			add(hole);
+		const int block = model.assembly.addBlock(points, rings, {}, material_);
+		model.claim(region);
+		return block;
+	}
+
 	int bond(BlockModel& model, Real tolerance)
 	{
 		model.requireOpen("BlockModel.bond");
@@ -316,6 +340,13 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 	             (arg("outline"), arg("material"), arg("zoneSize"), arg("holes") = py::tuple(), arg("conforming") = true, arg("zoning") = "delaunay"),
 	             "Adds one block: a simple polygon meshed with zones of the given size [m]. zoning: 'delaunay', 'regular' (rectangles), 'fan' or 'corners'. "
 	             "conforming: boundary points of the blocks that are there already become its own where they lie on its outline. Returns the block's index.")
+	        .def("addRigid", &addRigid, (arg("outline"), arg("material"), arg("holes") = py::tuple()),
+	             "Adds a rigid block: a platen or a support, of any simple outline [m], counter-clockwise, with holes. It has no zones; its density is the material's, its joints and contacts are those of the "
+	             "material pair. Its body moves by YADE's own means: it is free in the plane at first (blockedDOFs 'zXY'), and with ``O.bodies[model.bodyOf(block)].state`` it is held (blockedDOFs 'xyzXYZ'), "
+	             "driven (vel, angVel), loaded (ForceEngine, ``O.forces``). O.engines then needs ForceResetter first and, unless all rigid blocks are held, NewtonIntegrator between BlockForces and BlockIntegrator. "
+	             "``O.forces.f(id)`` is the sum of all forces on it, so the reaction of a held one is its opposite. Weight comes from :yref:`gravity<BlockModel.gravity>`; NewtonIntegrator.gravity must stay zero. "
+	             "Masses are scaled in quasi-static runs. Outlines need not share points with those of neighbours to be bonded. Returns the block's index.")
+	        .def("bodyOf", &BlockModel::bodyOf, (arg("block")), "Id of the body of a block; after insert().")
 	        .def("bond", &bond, (arg("tolerance") = 1e-6),
 	             "Finds the joints: overlaps of facing edges, apart by no more than tolerance times their length. To be called once, after all blocks. Returns the number of pairs. "
 	             "Errors: ValueError where blocks overlap.")
@@ -332,14 +363,14 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 	        .def("groupTravelled", &travelled, (arg("name")), "Displacement of a group so far [m].")
 	        .def("groupWork", &work, (arg("name")), "Work that a group has done on the blocks [J].")
 	        .add_property("groups", &groupNames, "Names of the motion groups.")
-	        .def("gravity", &gravity, (arg("g")), "Adds gravity, a vector [m/s2], on the true masses.")
+	        .def("gravity", &gravity, (arg("g")), "Adds gravity, a vector [m/s2], on the true masses, those of rigid blocks included.")
 	        .def("traction", &traction, (arg("edges"), arg("stress")), "Adds a traction vector [Pa] on boundary edges (indices into edgeNodes), as dead load.")
 	        .def("elasticJump", &elasticJump, (arg("fraction") = 0.97),
 	             "Leaps over the elastic part of the loading: solves for the answer to all loads, pushed groups at their full force and driven groups up to this fraction of the first failure, and goes on from there at full speed; no ramps, no settling. "
 	             "To be called after the first step, which brings the joints' properties (Mohr-Coulomb). Returns {'time': of loading at full speed that was leapt over [s], 'point': the contact point that will fail first}. "
 	             "Errors: RuntimeError where joints are broken or never were bonded, blocks are not held, nothing is driven, or the loads alone break a joint; nothing is changed then.")
 	        .def("unbalancedRatio", &unbalancedRatio, (arg("floor") = 0.),
-	             "Sum of unbalanced |force| over free degrees of freedom by twice the sum of contact |forces|, the latter at least floor [N]. YADE's utils.unbalancedForce() knows nothing of grid points.")
+	             "Sum of unbalanced |force| over free degrees of freedom (of rigid blocks: of their bodies, without moments) by twice the sum of contact |forces|, the latter at least floor [N]. YADE's utils.unbalancedForce() knows nothing of grid points.")
 	        .def("kineticEnergy", &kineticEnergy, "Kinetic energy, with the scaled masses if masses are scaled [J].")
 	        .def("zoneStress", py::make_function(&zoneStress), "Cauchy stress of every zone: sxx, syy, sxy, tension positive; shape (zones, 3) [Pa]. A copy.")
 	        .def("zoneQuality", &zoneQuality,
@@ -353,7 +384,7 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 	                VIEW(result, reference, Real, reference, 2, "Grid points' positions without stress, shape (grid points, 2) [m].")
 	                VIEW(state, velocity, Real, velocity, 2, "Grid points' velocities half a step ago, shape (grid points, 2) [m/s].")
 	                VIEW(result, force, Real, force, 2, "Grid points' unbalanced forces, shape (grid points, 2) [N].")
-	                VIEW(result, mass, Real, mass, 1, "Grid points' true masses [kg].")
+	                VIEW(result, mass, Real, mass, 1, "Grid points' true masses; 0 on rigid blocks, whose body has it all [kg].")
 	                VIEW(result, inertia, Real, inertia, 1, "Grid points' masses as they resist motion, scaled if BlockTimeStepper scales them [kg].")
 	                VIEW(result, zoneNodes, int, zoneNodes, 3, "Grid points of every zone, counter-clockwise, shape (zones, 3).")
 	                VIEW(result, zoneVolume, Real, zoneVolume, 1, "Volumes of the zones [m3].")

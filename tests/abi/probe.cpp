@@ -102,6 +102,19 @@ static py::object addedForce(int id, const Vector3r& f)
 	return py::object(Vector3r(scene().forces.getForce(id)));
 }
 
+static py::object addedTorque(int id, const Vector3r& t)
+{
+	scene().forces.addTorque(id, t);
+	scene().forces.sync();
+	return py::object(Vector3r(scene().forces.getTorque(id)));
+}
+
+/// (step of the last reset, whether all additions are summed up)
+static py::tuple forceState() { return py::make_tuple(scene().forces.lastReset, scene().forces.synced); }
+
+/// An attribute that our headers do not declare, by name.
+static py::object attributeOfEngine(int index, const string& name) { return scene().engines.at(index)->pyDict()[name]; }
+
 /// Adds in parallel, `n` times per name.
 static Real addedEnergy(const string& name, Real energy, int n)
 {
@@ -158,6 +171,9 @@ BOOST_PYTHON_MODULE(abiprobe)
 	py::def("interactions", interactions);
 	py::def("move", move);
 	py::def("addedForce", addedForce);
+	py::def("addedTorque", addedTorque);
+	py::def("forceState", forceState);
+	py::def("attributeOfEngine", attributeOfEngine);
 	py::def("addedEnergy", addedEnergy);
 	py::def("setEnergy", setEnergy);
 	py::def("insertInteraction", insertInteraction);

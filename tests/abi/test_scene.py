@@ -73,6 +73,15 @@ def test_trajectory(row):
 def test_forces(row):
 	assert abiprobe.addedForce(1, Vector3(1, 2, 3)) == Vector3(1, 2, 3)
 	assert O.forces.f(1) == Vector3(1, 2, 3)
+	assert abiprobe.addedTorque(1, Vector3(4, 5, 6)) == Vector3(4, 5, 6) and abiprobe.addedTorque(1, Vector3(1, 0, 0)) == O.forces.t(1) == Vector3(5, 5, 6)
+	O.forces.setPermF(2, (7, 8, 9))
+	assert abiprobe.addedForce(2, Vector3(1, 1, 1)) == Vector3(8, 9, 10) and abiprobe.forceState()[1]
+	O.forces.addF(1, (1, 0, 0))
+	assert not abiprobe.forceState()[1] # NewtonIntegrator, or else BlockIntegrator, sums up before forces are read
+	O.engines = [ForceResetter(), NewtonIntegrator(gravity=(0, -3, 0), damping=.4)]
+	O.run(3, True)
+	assert abiprobe.forceState()[0] == 2
+	assert (abiprobe.attributeOfEngine(1, 'gravity'), abiprobe.attributeOfEngine(1, 'damping')) == (Vector3(0, -3, 0), .4)
 
 
 def test_energy(row):

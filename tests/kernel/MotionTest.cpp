@@ -418,7 +418,7 @@ TEST(MotionGroup, RefusesBadInput)
 	expectRefusal([&] { a.addGroup(driven("head", { 5 }, nan)); }, { "\"head\"", "target", "finite", "nan" });
 	expectRefusal([&] { a.addGroup(driven("head", { 5 }, 1, -0.25)); }, { "\"head\"", "rampTime", "not be negative [s]", "got -0.25" });
 	const int rigid = a.addBlock({ { 0, -1 }, { 1, -1 }, { 0.5, -0.5 } }, { { 0, 1, 2 } }, {}, 0);
-	expectRefusal([&] { a.addGroup(pushed("head", { 2 * a.firstNode[rigid] }, 1)); }, { "\"head\"", "mass [kg]", "got 0" });
+	expectRefusal([&] { a.addGroup(pushed("head", { 2 * a.firstNode[rigid] }, 1)); }, { "\"head\"", "rigid block", "got " });
 	EXPECT_EQ(a.groups.size(), 1u);
 	EXPECT_EQ(a.mobility[2].y() > 0, true); // what was refused holds nothing
 }

@@ -5,6 +5,32 @@
 #include <numeric>
 
 namespace blocks {
+namespace {
+
+	struct Area {
+		Real size;     ///< [m2]
+		Vec2 centroid; ///< [m]
+		Real second;   ///< polar second moment about the centroid [m4]
+	};
+
+	/// The area to the left of closed lines, given as edges: triangles from the first point to every edge.
+	template <class Iterator> Area areaOf(const std::vector<Vec2>& points, Iterator begin, Iterator end)
+	{
+		const Vec2 apex = points[(*begin)[0]];
+		Real       size = 0, second = 0;
+		Vec2       first = Vec2::Zero();
+		for (; begin != end; ++begin) {
+			const Vec2 p = points[(*begin)[0]] - apex, q = points[(*begin)[1]] - apex;
+			const Real area = cross(p, q) / 2;
+			size += area;
+			first += area * (p + q) / 3;
+			second += area * (p.squaredNorm() + q.squaredNorm() + p.dot(q)) / 6;
+		}
+		const Vec2 centroid = first / size;
+		return { size, apex + centroid, second - size * centroid.squaredNorm() };
+	}
+
+} // namespace
 
 int BlockAssembly::addMaterial(const Material& m)
 {
@@ -50,6 +76,20 @@ int BlockAssembly::addBlock(
 		for (Real m : nodalMass)
 			require(m > 0, "every point of a deformable block must belong to a zone; mass [kg]", m);
 
+	RigidBlock rigidBlock;
+	if (triangles.empty()) {
+		std::vector<std::array<int, 2>> edges;
+		for (const auto& ring : rings)
+			for (size_t i = 0; i < ring.size(); ++i)
+				edges.push_back({ ring[i], ring[(i + 1) % ring.size()] });
+		const Area area = areaOf(points, edges.begin(), edges.end());
+		require(area.size > 0, "a rigid block's holes must be smaller than itself; area [m2]", area.size);
+		rigidBlock.block  = blockCount();
+		rigidBlock.origin = rigidBlock.centre = area.centroid;
+		rigidBlock.mass = rigidBlock.inertia = area.size * thickness * materials[material].density;
+		rigidBlock.moment = rigidBlock.rotaryInertia = area.second * thickness * materials[material].density;
+	}
+
 	// everything is as it should be: from here on nothing can fail half-way
 	for (const auto& t : triangles)
 		zoneNodes.push_back({ base + t[0], base + t[1], base + t[2] });
@@ -65,6 +105,7 @@ int BlockAssembly::addBlock(
 	for (Real m : nodalMass)
 		mobility.push_back(Vec2::Constant(m > 0 ? 1 / m : 0));
 	if (!load.empty()) load.resize(position.size(), Vec2::Zero());
+	if (triangles.empty()) rigid.push_back(rigidBlock);
 
 	rebuildZones(zoneCount() - int(triangles.size()));
 
@@ -80,12 +121,12 @@ int BlockAssembly::blockOfNode(int node) const { return int(std::upper_bound(fir
 
 Vec2 BlockAssembly::centroid(int block) const
 {
+	if (firstZone[block] == firstZone[block + 1]) return areaOf(position, edgeNodes.begin() + firstEdge[block], edgeNodes.begin() + firstEdge[block + 1]).centroid;
 	Vec2 sum = Vec2::Zero();
 	Real total = 0;
 	for (int n = firstNode[block]; n < firstNode[block + 1]; ++n) {
-		const Real weight = mass[n] > 0 ? mass[n] : 1; // a rigid block's points carry no mass of their own
-		sum += weight * (position[n] - position[firstNode[block]]);
-		total += weight;
+		sum += mass[n] * (position[n] - position[firstNode[block]]);
+		total += mass[n];
 	}
 	return position[firstNode[block]] + sum / total;
 }
@@ -159,15 +200,11 @@ int BlockAssembly::addGroup(MotionGroup group)
 		const int dof = group.dofs[i];
 		require(dof >= 0 && dof < 2 * nodeCount(), "motion group \"" + group.name + "\": no such degree of freedom", dof);
 		require(i == 0 || group.dofs[i - 1] != dof, "motion group \"" + group.name + "\" names a degree of freedom twice", dof);
+		require(mass[dof / 2] > 0, "motion group \"" + group.name + "\" holds a grid point of a rigid block, which moves with its body; grid point", dof / 2);
 		for (const MotionGroup& other : groups)
 			require(!std::binary_search(other.dofs.begin(), other.dofs.end(), dof),
 			        "motion group \"" + group.name + "\" overlaps \"" + other.name + "\" at degree of freedom (2 node + axis)", dof);
 	}
-	Real inertiaOfAll = 0;
-	for (int dof : group.dofs)
-		inertiaOfAll += inertia[dof / 2];
-	require(group.drive == MotionGroup::Drive::velocity || inertiaOfAll > 0,
-	        "motion group \"" + group.name + "\": a force needs grid points with mass; mass [kg]", inertiaOfAll);
 	groups.push_back(std::move(group));
 	updateMobility();
 	return int(groups.size()) - 1;

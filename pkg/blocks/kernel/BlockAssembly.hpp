@@ -3,6 +3,7 @@
 #include "FreeContacts.hpp"
 #include "JointLaw.hpp"
 #include "Motion.hpp"
+#include "RigidBlock.hpp"
 #include "Zone.hpp"
 
 /// Everything hot, in flat arrays: one BlockAssembly holds all blocks of a scene.
@@ -56,7 +57,7 @@ struct BlockAssembly {
 	std::vector<Vec2> velocity;  ///< at the last half step [m/s]
 	std::vector<Vec2> force;     ///< unbalanced force: zones, joints, loads [N]
 	std::vector<Vec2> load;      ///< dead load, gravity included; empty if there is none [N]
-	std::vector<Real> mass;      ///< true mass [kg]
+	std::vector<Real> mass;      ///< true mass; 0 for grid points of rigid blocks [kg]
 	std::vector<Real> inertia;   ///< mass that resists motion: the true or the scaled one [kg]
 	std::vector<Vec2> mobility;  ///< 1 / inertia, and 0 where motion is prescribed [1/kg]
 
@@ -68,6 +69,9 @@ struct BlockAssembly {
 	// ---- blocks, as ranges
 	std::vector<int> firstNode { 0 }, firstZone { 0 }, firstEdge { 0 }; ///< one more entry than there are blocks
 	std::vector<int> blockMaterial;
+
+	// ---- blocks without zones
+	std::vector<RigidBlock> rigid; ///< in the order of the blocks
 
 	// ---- boundary edges, block by block: material on the left
 	std::vector<std::array<int, 2>> edgeNodes;
@@ -99,7 +103,7 @@ struct BlockAssembly {
 	int addMaterial(const Material&);
 
 	/// Adds a block and returns its index. `rings` are the boundary nodes, material on the left; triangles are counter-clockwise.
-	/// Without triangles the block is rigid.
+	/// Without triangles the block is rigid: its mass is that of the area within its rings.
 	int addBlock(const std::vector<Vec2>& points, const std::vector<std::vector<int>>& rings, const std::vector<std::array<int, 3>>& triangles, int material);
 
 	/// Takes the segments that detectSegments found: sorts out pairs, sides and the distances at bonding.

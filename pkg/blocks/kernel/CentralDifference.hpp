@@ -12,6 +12,12 @@ struct StepWork {
 	Real kinetic       = 0; ///< kinetic energy at the time of the forces, m v_before v_after / 2
 	Real dampingBefore = 0; ///< dissipated by damping up to the time of the forces since the middle of the step before
 	Real dampingAfter  = 0; ///< ... and from there to the middle of the step after
+
+	StepWork& operator+=(const StepWork& o)
+	{
+		kinetic += o.kinetic, dampingBefore += o.dampingBefore, dampingAfter += o.dampingAfter;
+		return *this;
+	}
 };
 
 /// One step: moves the groups, then every free degree of freedom. The returned work is complete only if `account` says so.

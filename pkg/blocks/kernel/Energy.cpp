@@ -42,6 +42,8 @@ Real kineticEnergy(const BlockAssembly& a)
 	Real sum = 0;
 	for (int n = 0; n < a.nodeCount(); ++n)
 		sum += a.inertia[n] * a.velocity[n].squaredNorm() / 2;
+	for (const RigidBlock& r : a.rigid)
+		sum += (r.inertia * r.velocity.head<2>().squaredNorm() + r.rotaryInertia * r.velocity[2] * r.velocity[2]) / 2;
 	return sum;
 }
 
@@ -50,6 +52,8 @@ Real loadWork(const BlockAssembly& a)
 	Real sum = 0;
 	for (size_t n = 0; n < a.load.size(); ++n)
 		sum += a.load[n].dot(a.position[n] - a.reference[n]);
+	for (const RigidBlock& r : a.rigid)
+		sum += r.load.dot(r.centre - r.origin);
 	return sum;
 }
 
@@ -58,6 +62,14 @@ Real groupWork(const BlockAssembly& a)
 	Real sum = 0;
 	for (const MotionGroup& g : a.groups)
 		sum += g.work;
+	return sum;
+}
+
+Real rigidWork(const BlockAssembly& a)
+{
+	Real sum = 0;
+	for (const RigidBlock& r : a.rigid)
+		sum += r.work;
 	return sum;
 }
 
@@ -85,6 +97,8 @@ Real unbalancedRatio(const BlockAssembly& a, Real floor)
 	for (int n = 0; n < a.nodeCount(); ++n)
 		for (int axis : { 0, 1 })
 			if (a.mobility[n][axis] > 0) unbalanced += std::abs(a.force[n][axis]);
+	for (const RigidBlock& r : a.rigid)
+		unbalanced += r.unbalanced.head<2>().lpNorm<1>();
 	for (size_t i = 0; i < a.points.size(); ++i) {
 		const ContactPoint& p = a.points[i];
 		const SegmentFrame& f = a.frames[i / 2];

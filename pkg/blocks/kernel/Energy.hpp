@@ -10,6 +10,7 @@ Real jointEnergy(const BlockAssembly&);   ///< elastic energy of the joints' spr
 Real kineticEnergy(const BlockAssembly&); ///< from the velocities at the last half step and the inertia
 Real loadWork(const BlockAssembly&);      ///< of the dead loads since the reference state
 Real groupWork(const BlockAssembly&);     ///< of driven and pushed degrees of freedom
+Real rigidWork(const BlockAssembly&);     ///< of what moves rigid blocks, apart from their neighbours and dead loads
 
 /// Dissipation at the contact points (free contacts book their own, see contactFriction), by the trapezoidal rule from step to step. Exists only where somebody keeps accounts.
 struct JointDissipation {
@@ -28,7 +29,7 @@ struct JointDissipation {
 	std::vector<Before> before; ///< of each contact point, at the last step
 };
 
-/// Sum of |F| over free degrees of freedom by twice the sum of |F| over contact points, the latter at least `floor` [N].
+/// Sum of |F| over free degrees of freedom (moments on rigid blocks left out) by twice the sum of |F| over contact points, the latter at least `floor` [N].
 Real unbalancedRatio(const BlockAssembly&, Real floor = 0);
 
 } // namespace blocks

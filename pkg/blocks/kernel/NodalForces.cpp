@@ -148,6 +148,8 @@ void addGravity(BlockAssembly& a, const Vec2& g)
 	Vec2* load = loads(a);
 	for (int n = 0; n < a.nodeCount(); ++n)
 		load[n] += a.mass[n] * g;
+	for (RigidBlock& r : a.rigid)
+		r.load += r.mass * g;
 }
 
 void addTraction(BlockAssembly& a, int edge, const Vec2& traction)

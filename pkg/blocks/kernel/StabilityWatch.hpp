@@ -40,6 +40,7 @@ private:
 		std::vector<Vec2>         position, velocity;
 		std::vector<ContactPoint> points;
 		std::vector<MotionGroup>  groups;
+		std::vector<RigidBlock>   rigid;
 		FreeContacts              contacts; ///< and the segments, whose areas end with their release; if there are any contacts
 		std::vector<Segment>      segments;
 	};
