@@ -6,7 +6,7 @@ import math
 import pytest
 
 from scenes import *
-from yade.minieigenHP import Quaternion, Vector3
+from yade.minieigenHP import Vector3
 
 g = 9.81
 held = 'xyzXYZ'
@@ -187,7 +187,7 @@ def test_energyBalance(free, damping):
 	assert abs(weights[-1]) > 1e-4 * scale
 
 
-def incline(angle, mu=0.5, size=0.1, kn=1e9, blocked='zXY'):
+def incline(angle, mu=0.5, size=0.1, kn=1e9):
 	"""A rigid square upon an inclined rigid support; true masses. The body of the square."""
 	rigidMaterials()
 	model = BlockModel(thickness=0.1)
@@ -332,7 +332,7 @@ def test_toppling():
 
 
 def test_irregularSupport():
-	"""A square block stands on its corner in a notch, a rigid weight hangs glued to one side of it: the support carries both, with their moment."""
+	"""A square block stands on its corner in a notch, a rigid weight is glued to one side of it: the support carries both, with their moment."""
 	rigidMaterials()
 	model = BlockModel(thickness=0.1)
 	support = model.addRigid([(-0.3, -0.2), (0.25, -0.15), (0.35, 0.2), (0.2, 0.2), (0, 0), (-0.2, 0.2), (-0.3, 0.2)], 'steel')
@@ -347,7 +347,6 @@ def test_irregularSupport():
 	O.dt, O.engines = 1e-3, movers(between(**firm), newton=dict(damping=0.5), alpha=0.5)
 	O.run(6000, True)
 	assert model.unbalancedRatio() < 1e-6
-	own = 7800 * 0.1 * g * 0.155 # area of the support, by shoelace below
 	x, y = np.array(model.reference[model.firstNode[support]:model.firstNode[support + 1]]).T
 	own = 7800 * 0.1 * g * (x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
 	load = g * np.array(masses)
@@ -358,7 +357,7 @@ def test_irregularSupport():
 	assert high.mass != masses[1] # it was scaled, yet weighs what it weighed
 
 
-def scene(contacts=True):
+def scene():
 	"""A driven platen shears and presses a wall of Voronoi blocks upon a rigid base; a rigid block falls on it. Quasi-static, unbonded."""
 	rigidMaterials()
 	model = BlockModel(thickness=0.1)
@@ -374,7 +373,7 @@ def scene(contacts=True):
 	driven.blockedDOFs, driven.vel, driven.angVel = held, (2e-4, -1e-4, 0), (0, 0, -2e-4)
 	push = ForceEngine(force=(30, -500, 0), ids=[model.bodyOf(loose)])
 	O.trackEnergy = True
-	O.dt, O.engines = 1e-3, movers(between(tension=2e5, cohesion=2e5, dilationAngle=0), contacts=contacts, more=[push], newton=dict(damping=0.3), alpha=0.3)
+	O.dt, O.engines = 1e-3, movers(between(tension=2e5, cohesion=2e5, dilationAngle=0), contacts=True, more=[push], newton=dict(damping=0.3), alpha=0.3)
 	return model
 
 
