@@ -81,7 +81,7 @@ def crush(seed, steps, label):
 		history.append((-model.groupTravelled('platen') / height, stress, (displacement[right].mean() - displacement[left].mean()) / p.width,
 			cracks.look(), model.unbalancedRatio(floor=floor)))
 		if stress > stop.peak: atPeak.update(cracks.counts())
-		progress(-model.groupTravelled('platen') * steps / p.stroke)
+		progress(int(-steps * model.groupTravelled('platen') / p.stroke))
 		stop(-model.groupTravelled('platen'), stress, history[-1][3])
 
 	O.dt = p.stroke / velocity / steps

@@ -74,7 +74,7 @@ def shear(seed, steps, label):
 		stress, broken = history[-1][1], history[-1][3]
 		if not p.servo: approach(stress, broken)
 		stop(model.groupTravelled('shear'), stress, broken)
-		progress(model.groupTravelled('shear') * steps / p.stroke)
+		progress(int(steps * model.groupTravelled('shear') / p.stroke))
 
 	O.dt = dt
 	O.engines = [

@@ -96,6 +96,16 @@ TEST(ElasticJump, StandsInEquilibriumJustBelowTheFirstFailure)
 	}
 }
 
+TEST(ElasticJump, ShearFailsEitherWay)
+{
+	// Without friction and tension cut-off, loading the other way turns all stresses round: the same point fails at the same time,
+	// up to the strain.
+	BlockAssembly     right = wall(brittle(1e15, 1.5e6, 0), 1e-3, 0, 0), left = wall(brittle(1e15, 1.5e6, 0), -1e-3, 0, 0);
+	const ElasticJump one = elasticJump(right, 0.9, 0), other = elasticJump(left, 0.9, 0);
+	EXPECT_EQ(one.point, other.point);
+	EXPECT_NEAR(one.time, other.time, 1e-3 * one.time);
+}
+
 TEST(ElasticJump, IsWhereSlowLoadingArrives)
 {
 	// The same wall, loaded by damped steps to the same place: what differs is what is left of its motion (ratio 1e-7).
@@ -167,6 +177,9 @@ TEST(ElasticJump, RefusesWhatIsNotLinear)
 	BlockAssembly bare = wall(joint, 1e-3, 0, 1e5);
 	bare.joints.assign(bare.pairs.size(), {});
 	refuses(bare, "no properties yet");
+	BlockAssembly onRigid = wall(joint, 1e-3, 0, 1e5);
+	onRigid.addBlock({ { 5, 5 }, { 6, 5 }, { 5, 6 } }, { { 0, 1, 2 } }, {}, 0);
+	refuses(onRigid, "is rigid");
 	BlockAssembly loose = column(2, 0.4, 0.3, 2, 2, stone(), joint);
 	loose.addGroup(driven("top", dofs(loose, 1, [](const Vec2& x) { return x.y() > 0.6 - 1e-9; }), 1e-3));
 	refuses(loose, "hold them");

@@ -170,6 +170,7 @@ namespace {
 
 	void requireIntact(const BlockAssembly& a)
 	{
+		if (!a.rigid.empty()) throw std::runtime_error("no elastic jump: block " + std::to_string(a.rigid.front().block) + " is rigid, and how rigid blocks move is not known beforehand");
 		for (size_t pair = 0; pair < a.pairs.size(); ++pair) {
 			const std::string who = "the joint between blocks " + std::to_string(a.pairs[pair].block[0]) + " and " + std::to_string(a.pairs[pair].block[1]);
 			if (!(a.joints[pair].kn > 0)) throw std::runtime_error("no elastic jump: " + who + " has no properties yet; run one step first");
