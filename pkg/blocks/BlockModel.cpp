@@ -45,7 +45,8 @@ const vector<Real>& BlockModel::stiffness()
 {
 	if (knownVersion != version) {
 		knownVersion   = version;
-		knownStiffness = blocks::nodalStiffness(assembly);
+		if (int(zoneStiffness.size()) != assembly.nodeCount()) zoneStiffness = blocks::zoneStiffness(assembly);
+		knownStiffness = blocks::nodalStiffness(assembly, zoneStiffness);
 	}
 	return knownStiffness;
 }

@@ -86,7 +86,7 @@ public:
 private:
 	std::vector<blocks::Polygon> regions;
 
-	vector<Real> knownStiffness;
+	vector<Real> knownStiffness, zoneStiffness;
 	long         knownVersion = 0;
 
 	static std::atomic<long> lastVersion;

@@ -244,8 +244,8 @@ TEST(EdgeContact, WhatIsFreeStaysFree)
 		soon += distance > 0 && reached;
 	}
 	std::printf("apart: %d, free for some distance: %d, touching at 30 times that: %d\n", apart, free, soon);
-	EXPECT_GT(free, 0.9 * apart);
-	EXPECT_GT(soon, free / 4); // no bound that is safe because it is tiny
+	EXPECT_GT(free, apart / 4); // the others overlap: they have faded out, and nothing is said about them
+	EXPECT_GT(soon, free / 2);  // no bound that is safe because it is tiny
 }
 
 TEST(EdgeContact, SlipIsObjective)

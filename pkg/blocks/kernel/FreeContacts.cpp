@@ -267,8 +267,10 @@ int contactOf(const BlockAssembly& a, int block1, int block2, int hint)
 	const FreeContacts& f   = a.contacts;
 	const auto          key = ordered(block1, block2);
 	if (hint >= 0 && hint < int(f.all.size()) && f.all[hint].block == key) return hint;
-	const auto at = std::lower_bound(f.order.begin(), f.order.end(), key, [&](int i, const std::array<int, 2>& k) { return f.all[i].block < k; });
-	return at != f.order.end() && f.all[*at].block == key ? *at : -1;
+	if (key[0] + 1 >= int(f.firstOfBlock.size())) return -1;
+	for (int i = f.firstOfBlock[key[0]]; i < f.firstOfBlock[key[0] + 1]; ++i)
+		if (f.all[f.ofBlock[i]].block == key) return f.ofBlock[i];
+	return -1;
 }
 
 void requestContact(BlockAssembly& a, int block1, int block2)

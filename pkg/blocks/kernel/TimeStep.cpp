@@ -26,7 +26,9 @@ namespace {
 
 } // namespace
 
-std::vector<Real> nodalStiffness(const BlockAssembly& a)
+std::vector<Real> nodalStiffness(const BlockAssembly& a) { return nodalStiffness(a, zoneStiffness(a)); }
+
+std::vector<Real> zoneStiffness(const BlockAssembly& a)
 {
 	std::vector<Real> stiffness(a.nodeCount(), 0);
 	for (int block = 0; block < a.blockCount(); ++block) {
@@ -35,6 +37,11 @@ std::vector<Real> nodalStiffness(const BlockAssembly& a)
 		for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z)
 			addZone(a, z, moduli, stiffness);
 	}
+	return stiffness;
+}
+
+std::vector<Real> nodalStiffness(const BlockAssembly& a, std::vector<Real> stiffness)
+{
 	for (size_t pair = 0; pair < a.pairs.size(); ++pair) {
 		const JointParams& joint = a.joints[pair];
 		const Real         k     = std::max(joint.kn, joint.ks) + joint.kn * joint.tanDilation;

@@ -11,6 +11,10 @@ namespace blocks {
 /// it overestimates the stable step by 4-49 %. Dilation adds its normal force per slip to a joint's stiffness.
 std::vector<Real> nodalStiffness(const BlockAssembly&);
 
+/// The zones' share of it, which never changes, and all of it from that.
+std::vector<Real> zoneStiffness(const BlockAssembly&);
+std::vector<Real> nodalStiffness(const BlockAssembly&, std::vector<Real> ofZones);
+
 /// min 2 sqrt(m / K) over the grid points that can move, for the true masses or the scaled ones [s].
 Real stableTimeStep(const BlockAssembly&, const std::vector<Real>& stiffness, const std::vector<Real>& inertia);
 

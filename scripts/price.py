@@ -1,0 +1,294 @@
+# yade-blocks, GPL-2.0-or-later
+"""What every optional feature costs a step, switched off and on. To be started by scripts/price.sh:
+
+	scripts/price.sh [quick=false]        about 8 minutes on two idle cores; quick=false: longer windows, more repetitions
+
+Three states are measured: a couplet in tension whose first joints are broken (TT2 of tension.py, bonded joints only), a masonry
+prism in compression before its first crack (compression.py, half as wide) and the same prism crushed, with general contact. From
+each, the same window of steps is run again and again, with one feature more every time. Instructions are counted in callgrind and
+repeat to about 1e-4; times are the best of several runs.
+
+Switched off, a feature leaves only the question whether it is on. To show it, the instructions of the bare scene are sorted by source
+line: those in a feature's own files, or on lines elsewhere that speak of it, are its price while it is off: an upper bound.
+"""
+import json
+import re
+import time
+from math import radians
+from pathlib import Path
+
+import numpy as np
+
+import yadeblocks
+from yade import *
+from yadeblocks import scenario
+from yadeblocks.instructions import Feature, Marks, readProfiles, sourceLines
+from yadeblocks.specimen import Gauge, nodesWhere, rectangle
+
+p = scenario.parameters({'part': '', 'scene': 'tension', 'quick': True},
+	{'part': scenario.Rule(lambda part: part in ('states', 'times', 'counts', 'threads', 'table'), 'is set by scripts/price.sh, which starts this script'), 'scene': ('tension', 'compression', 'crushed')})
+folder = Path('out/price')
+house = Path(__file__).resolve().parents[1]
+window = 100 if p.quick else 400 # steps
+repetitions = 4 if p.quick else 12 # of every timed window
+writeEvery, lookEvery, recordEvery = 1000, 100, 50 # steps between ParaView files, looks at the stability, gauge readings
+
+# ---- the scenes
+
+unit = dict(young=16.7e9, poisson=0.2, density=1900)
+joint = dict(kn=400e9, ks=200e9, frictionAngle=radians(38), frictionAngleResidual=0, cohesion=0.6e6, tension=0.6e6)
+mortarJoint = dict(kn=348e9, ks=174e9, frictionAngle=radians(15), frictionAngleResidual=0, cohesion=1.4e6, cohesionResidual=0.28e6, tension=0.7e6)
+unitJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), frictionAngleResidual=0, cohesion=15e6, cohesionResidual=3e6, tension=7.5e6)
+
+
+def engines(unitToUnit, mortarToOthers, alpha):
+	"""The bare time step: no feature but large displacements and local damping."""
+	return [
+		InteractionLoop([Ig2_Block_Block_BlockGeom()], [Ip2_BlockMat_BlockMat_JointPhys(joints=[
+			JointMat(material1='unit', material2='unit', **unitToUnit),
+			JointMat(material1='mortar', material2='mortar', **mortarToOthers),
+			JointMat(material1='unit', material2='mortar', **mortarToOthers)])], [Law2_BlockGeom_JointPhys_MohrCoulomb()]),
+		BlockTimeStepper(),
+		BlockForces(),
+		BlockIntegrator(alpha=alpha, watchPeriod=0)]
+
+
+def addGeneralContact():
+	O.engines = [BlockContacts(), InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0)] + O.engines
+
+
+def tension():
+	"""A couplet of 100 x 115 mm with a mortar layer of 2 mm blocks, pulled until some joints have broken."""
+	O.reset()
+	O.materials.append(BlockMat(label='unit', **unit))
+	O.materials.append(BlockMat(label='mortar', young=2.974e9, poisson=0.2, density=1250))
+	model, length, low, high = BlockModel(thickness=0.05), 0.1, 0.05, 0.065
+	model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=2e-3, lloyd=1, seed=1, mergeFraction=0.1)
+	model.addRegion(rectangle(0, 0, length, low), 'unit', zoneSize=8e-3)
+	model.addRegion(rectangle(0, high, length, high + low), 'unit', zoneSize=8e-3)
+	model.bond()
+	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
+	model.drive('top', nodesWhere(model, lambda x, y: y > high + low - 1e-9), 'y', velocity=0.02e-3, rampTime=0.05)
+	model.insert()
+	O.dt = 1.5 / 10000
+	O.engines = engines(joint, joint, 0.3)
+	return model
+
+
+def compression():
+	"""A prism of five bricks and four mortar joints, 130 x 290 mm."""
+	O.reset()
+	O.materials.append(BlockMat(label='unit', young=20e9, poisson=0.2, density=2000))
+	O.materials.append(BlockMat(label='mortar', young=5.8e9, poisson=0.2, density=2000))
+	model, width, y = BlockModel(thickness=0.285), 0.13, 0
+	for layer in range(9):
+		label, size, thick = ('mortar', 3e-3, 0.01) if layer % 2 else ('unit', 0.01, 0.05)
+		model.addVoronoi(rectangle(0, y, width, y + thick), label, size=size, sizeMeaning='edge', lloyd=3, seed=1000 + layer, mergeFraction=0.1)
+		y += thick
+	model.bond()
+	bottom = nodesWhere(model, lambda x, y: y < 1e-9)
+	model.drive('bottom', bottom, 'y')
+	model.drive('centre', bottom[abs(model.reference[bottom, 0] - width / 2).argmin()], 'x')
+	model.drive('platen', nodesWhere(model, lambda x, y: y > 0.29 - 1e-9), 'y', velocity=-0.01e-3, rampTime=18)
+	model.insert()
+	O.dt = 360 / 10000
+	O.engines = engines(unitJoint, mortarJoint, 0.2)
+	return model
+
+
+def runUntil(condition, what, most=20000):
+	while not condition():
+		if O.iter > most: raise RuntimeError('price: %s is not reached within %d steps' % (what, most))
+		O.run(50, True)
+
+
+def states():
+	"""Builds the scenes, brings them to where they are measured and saves them."""
+	broken = lambda model: np.count_nonzero(np.isin(model.pointStatus, (1, 2)))
+	model = tension()
+	runUntil(lambda: broken(model) >= 20, 'the first crack in tension')
+	save('tension', model)
+	model = compression()
+	O.run(400, True)
+	save('compression', model)
+	model = compression()
+	addGeneralContact()
+	runUntil(lambda: broken(model) >= 0.2 * model.contactCount, 'the crushed state')
+	save('crushed', model)
+
+
+def save(name, model):
+	touching = [len(i.geom.ends) // 2 for i in O.interactions if i.geom.contact >= 0]
+	sizes = dict(blocks=model.blockCount, nodes=model.nodeCount, zones=model.zoneCount, points=model.contactCount, pairs=len(list(O.interactions)),
+		broken=int(np.count_nonzero(np.isin(model.pointStatus, (1, 2)))), freeContacts=len(touching), touchingEdges=sum(touching))
+	(folder / (name + '.sizes.json')).write_text(json.dumps(sizes))
+	O.save(str(folder / (name + '.yade')))
+
+
+# ---- the features
+
+def engine(kind):
+	return next(e for e in O.engines if type(e).__name__ == kind)
+
+
+def addAfterForces(new):
+	at = [type(e).__name__ for e in O.engines].index('BlockForces') + 1
+	O.engines = O.engines[:at] + [new] + O.engines[at:]
+
+
+def setJoints(**values):
+	for interaction in O.interactions:
+		for name, value in values.items():
+			setattr(interaction.phys, name, value)
+
+
+def addGauge(model):
+	nodes = np.arange(model.nodeCount)
+	gauge, readings = Gauge(model, nodes[:40], nodes[-40:]), []
+	globals()['readGauge'] = lambda: readings.append((gauge(), model.groupForce(model.groups[-1])))
+	O.engines = O.engines + [PyRunner(command='readGauge()', iterPeriod=recordEvery)]
+
+
+def addExport(model):
+	from yadeblocks.export import BlocksExport
+	export = BlocksExport(folder / 'vtk')
+	export.write(model, O.time) # imports what it needs
+	globals()['writeExport'] = lambda: export.write(model, O.time)
+	O.engines = O.engines + [PyRunner(command='writeExport()', iterPeriod=window)]
+
+
+class Row:
+	"""A feature: its name, how it is switched on, and how often it works (1: as often as in the window)."""
+
+	def __init__(self, name, switch, share=1):
+		self.name, self.switch, self.share = name, switch, share
+
+
+rows = [
+	Row('general contact (collider + BlockContacts), nothing broken', lambda model: addGeneralContact()),
+	Row('small strain instead of large displacement', lambda model: setattr(model, 'smallStrain', True)),
+	Row('dilation', lambda model: setJoints(dilationAngle=radians(4))),
+	Row('residual friction', lambda model: setJoints(frictionAngleResidual=radians(30))),
+	Row('gravity (dead loads)', lambda model: model.gravity((0, -9.81))),
+	Row('adaptive damping instead of local', lambda model: setattr(engine('BlockIntegrator'), 'damping', 'adaptive')),
+	Row('no damping instead of local', lambda model: setattr(engine('BlockIntegrator'), 'damping', 'none')),
+	Row('stability watch, every %d steps' % lookEvery, lambda model: setattr(engine('BlockIntegrator'), 'watchPeriod', lookEvery)),
+	Row('energy accounts (O.trackEnergy)', lambda model: setattr(O, 'trackEnergy', True)),
+	Row('crack recorder, every step', lambda model: addAfterForces(BlockCrackRecorder())),
+	Row('gauge in a PyRunner, every %d steps' % recordEvery, addGauge),
+	Row('ParaView files, every %d steps' % writeEvery, addExport, window / writeEvery)]
+if 'BlockServo' in globals():
+	rows.append(Row('servo', lambda model: addAfterForces(BlockServo(groups=[model.groups[-1]], floor=1))))
+if p.scene == 'crushed': rows = [row for row in rows if 'general contact' not in row.name]
+
+features = { # where their code is
+	'general contact': Feature(r'(Free|Edge|Block)Contacts?\.', r'contacts\b|->contact\b|contactsVersion|g\.area == 0'),
+	'dilation': Feature(lines='[dD]ilation'),
+	'small strain': Feature(lines='smallStrain|Strain::small'),
+	'dead loads': Feature(lines=r'\bload\b|loadWork'),
+	'adaptive damping': Feature(lines='adaptive|viscous'),
+	'stability watch': Feature(r'StabilityWatch\.', r'watch'),
+	'energy accounts': Feature(r'Energy\.', 'trackEnergy|account|dissipation'),
+	'crack recorder': Feature(r'BlockCrackRecorder\.'),
+	'servo': Feature(r'BlockServo\.', 'throttle'),
+}
+
+
+def start(switch=None):
+	"""The scene's state, with one feature more; a few steps behind the switch, which may change masses."""
+	O.load(str(folder / (p.scene + '.yade')))
+	model = next(b.shape.model for b in O.bodies if isinstance(b.shape, Block))
+	if switch: switch(model)
+	O.run(recordEvery + 1, True)
+	return model
+
+
+def counts():
+	marks = Marks('build/price/libmarks.so')
+	for name, switch in [('bare', None), ('bare again', None)] + [(row.name, row.switch) for row in rows]:
+		start(switch)
+		with marks.counting(name): O.run(window, True)
+
+
+def bestTime(switch=None):
+	"""CPU time of a step [ns]."""
+	start(switch)
+	times = []
+	for _ in range(repetitions):
+		begun = time.process_time()
+		O.run(window, True)
+		times.append(time.process_time() - begun)
+	return 1e9 * min(times) / window
+
+
+def times():
+	bare = bestTime()
+	on = {row.name: bestTime(row.switch) for row in rows}
+	(folder / (p.scene + '.times.json')).write_text(json.dumps({'bare': min(bare, bestTime()), **on}))
+
+
+def threads():
+	"""Wall-clock time of a step on as many threads as YADE has [ns]."""
+	found = {}
+	for count in (1, 2):
+		start()
+		for e in O.engines:
+			e.ompThreads = count
+		clock = []
+		for _ in range(repetitions):
+			begun = time.perf_counter()
+			O.run(window, True)
+			clock.append(time.perf_counter() - begun)
+		found[count] = 1e9 * min(clock) / window
+	(folder / (p.scene + '.threads.json')).write_text(json.dumps(found))
+
+
+# ---- the table
+
+def kilo(instructions):
+	return '%.1f' % (instructions / 1e3)
+
+
+def report():
+	lines, table = [], []
+	source = sourceLines(house)
+	for scene in ('tension', 'compression', 'crushed'):
+		read = lambda kind: json.loads((folder / ('%s.%s.json' % (scene, kind))).read_text())
+		sizes, nanoseconds, profiles = read('sizes'), read('times'), readProfiles(folder / (scene + '.callgrind'))
+		bare = profiles['bare']
+		off = bare.total / window
+		lines += ['', '## %s' % scene, '', ', '.join('%d %s' % (value, name) for name, value in sizes.items()) + '.', '',
+			'Bare: %s thousand instructions, %.0f µs a step; counted again: %+.4f %%.' % (kilo(off), nanoseconds['bare'] / 1e3, 100 * (profiles['bare again'].total / bare.total - 1)), '',
+			'| feature | instructions a step, on (10³) | more than bare | | µs more |', '|---|---:|---:|---:|---:|']
+		for row in rows:
+			if row.name not in profiles: continue
+			more, slower = row.share * (profiles[row.name].total / window - off), row.share * (nanoseconds[row.name] - nanoseconds['bare'])
+			lines.append('| %s | %s | %+.1f | %+.1f %% | %+.1f |' % (row.name, kilo(off + more), more / 1e3, 100 * more / off, slower / 1e3))
+			table.append((scene, row.name, off, off + more, nanoseconds['bare'], nanoseconds['bare'] + slower))
+		if (folder / (scene + '.threads.json')).exists():
+			clock = read('threads')
+			lines.append('| two threads instead of one (wall-clock) | | | %+.0f %% | %+.1f |' % (100 * (clock['2'] / clock['1'] - 1), (clock['2'] - clock['1']) / 1e3))
+		if scene != 'crushed':
+			lines += ['', '| switched off | instructions a step | share of the bare step |', '|---|---:|---:|']
+			for name, feature in features.items():
+				count = bare.inFeature(feature, source) / window
+				lines.append('| %s | %.0f | %.2f %% |' % (name, count, 100 * count / off))
+				table.append((scene, name + ', off', off - count, off, '', ''))
+		lines += ['', '| where the bare step goes | share |', '|---|---:|']
+		lines += ['| %s | %.1f %% |' % (short(name), 100 * count / bare.total) for name, count in bare.byFunction().most_common(12)]
+	(folder / 'table.md').write_text('\n'.join(lines[1:]) + '\n')
+	with open(folder / 'price.csv', 'w') as csv:
+		csv.write('scene,feature,instructions_without,instructions_with,ns_without,ns_with\n')
+		for row in table:
+			csv.write(','.join('"%s"' % cell if isinstance(cell, str) else '%.6g' % cell for cell in row) + '\n')
+	print('\n'.join(lines))
+
+
+def short(function):
+	"""A C++ function's name without arguments and namespaces; code of libraries without symbols is an address."""
+	name = re.sub(r'\(anonymous namespace\)::|blocks::|yade::|std::|boost::', '', function)
+	return 'a library' if name.startswith('0x') else re.sub(r'\(.*|<.*', '', name).split(' ')[-1].strip("'").strip() or function[:40]
+
+
+folder.mkdir(parents=True, exist_ok=True)
+{'states': states, 'times': times, 'counts': counts, 'threads': threads, 'table': report}[p.part]()

@@ -1,0 +1,35 @@
+#!/bin/bash
+# What every optional feature costs: scripts/price.sh [quick=false] [key=value ...], see scripts/price.py. Results are in out/price/.
+# Counts instructions with valgrind, which is installed if it is missing.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/setup.sh
+if [ "$(dpkg-query -W -f '${db:Status-Status}' valgrind 2>/dev/null)" != installed ]; then
+	root=""
+	[ "$(id -u)" = 0 ] || root="sudo -n"
+	export DEBIAN_FRONTEND=noninteractive
+	$root apt-get update -q
+	$root apt-get install -q -y --no-install-recommends valgrind
+fi
+
+folder=out/price
+mkdir -p build/price "$folder"
+rm -f "$folder"/*.callgrind* "$folder"/*.json
+cc -shared -fPIC -O1 -x c - -o build/price/libmarks.so <<'EOF'
+#include <valgrind/callgrind.h>
+void startCounting(void) { CALLGRIND_ZERO_STATS; CALLGRIND_START_INSTRUMENTATION; }
+void stopCounting(const char* name) { CALLGRIND_DUMP_STATS_AT(name); CALLGRIND_STOP_INSTRUMENTATION; }
+EOF
+
+export OMP_WAIT_POLICY=passive PYTHONPATH="$PWD/py${PYTHONPATH:+:$PYTHONPATH}"
+yade="$(command -v yade)"
+interpreter="$(head -1 "$yade" | sed 's/^#! *//')"
+
+yade -n -x -j1 scripts/price.py part=states "$@"
+for scene in tension compression crushed; do
+	yade -n -x -j1 scripts/price.py part=times scene=$scene "$@"
+	OMP_NUM_THREADS=1 valgrind -q --tool=callgrind --instr-atstart=no --compress-strings=no --compress-pos=no --callgrind-out-file="$folder/$scene.callgrind" \
+		"$interpreter" "$yade" -n -x -j1 scripts/price.py part=counts scene=$scene "$@"
+done
+[ "$(nproc)" = 1 ] || for scene in tension compression; do yade -n -x -j2 scripts/price.py part=threads scene=$scene "$@"; done
+yade -n -x -j1 scripts/price.py part=table "$@"
