@@ -3,16 +3,47 @@
 #include "Energy.hpp"
 
 namespace blocks {
+namespace {
+	/// "blocks 3 and 7 overlap by 1e-05 m, 12 % of the 8e-05 m "
+	std::string described(const Overlap& o)
+	{
+		char text[160];
+		std::snprintf(text, sizeof text, "blocks %d and %d overlap by %.3g m, %.0f %% of the %.3g m ", o.block[0], o.block[1], o.depth, 100 * o.share(), o.bound);
+		return text;
+	}
 
-StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, Real time)
+	/// What half a step of the present forces adds to the kinetic energy, dt v.f / 2.
+	Real kineticChange(const BlockAssembly& a, Real time, Real dt)
+	{
+		Real power = 0;
+		for (int n = 0; n < a.nodeCount(); ++n)
+			for (int axis : { 0, 1 })
+				if (a.mobility[n][axis] > 0) power += a.velocity[n][axis] * a.force[n][axis];
+		for (const MotionGroup& g : a.groups) {
+			if (g.drive == MotionGroup::Drive::velocity) continue;
+			power += g.velocity * g.target * g.ramp(time);
+			for (int dof : g.dofs)
+				power += g.velocity * a.force[dof / 2][dof % 2];
+		}
+		return power * dt / 2;
+	}
+} // namespace
+
+StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, Real time, Real dt)
 {
 	const int bad = a.firstBadNode();
 	if (bad >= 0) return { false, a.blockOfNode(bad), "the motion of a grid point is not a number" };
 
+	overlaps.look(a);
+	if (overlaps.deepest.share() > 1)
+		return { false, overlaps.deepest.block[0],
+			 described(overlaps.deepest) + "beyond which a contact carries the less the deeper it gets: they go through each other; joints must be stiffer or loads smaller" };
+	if (overlaps.inverted >= 0) return { false, overlaps.inverted, "a zone has turned inside out" };
+
 	Real turnover = 0;
 	for (const MotionGroup& g : a.groups)
 		turnover += g.workTurnover;
-	const Real loads = loadWork(a), energy = zoneEnergy(a) + jointEnergy(a) + kineticEnergy(a);
+	const Real loads = loadWork(a), swinging = zoneEnergy(a) + jointEnergy(a) + kineticEnergy(a), energy = swinging + kineticChange(a, time, dt);
 	if (!begun) {
 		roundingEnergy = 0;
 		for (int block = 0; block < a.blockCount(); ++block)
@@ -25,11 +56,12 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 	const Real excess = energy - groupWork(a) - loads - baseline;
 	const Real scale  = std::abs(baseline) + turnover + std::abs(loads) + roundingEnergy;
 	const bool compare = step - compared >= leastInterval;
-	if (compare && excess > tolerance * scale && lastExcess > tolerance * scale && excess > growth * lastExcess) {
+	const bool grows   = compare && excess > tolerance * scale && lastExcess > tolerance * scale && excess > growth * lastExcess;
+	if (grows || swinging > swing * (std::max(energy, Real(0)) + scale)) {
 		int fastest = 0;
 		for (int n = 1; n < a.nodeCount(); ++n)
 			if (a.inertia[n] * a.velocity[n].squaredNorm() > a.inertia[fastest] * a.velocity[fastest].squaredNorm()) fastest = n;
-		return { false, a.blockOfNode(fastest), "energy grew without work, to " + shown(energy) + " J where " + shown(energy - excess) + " J were put in" };
+		return { false, a.blockOfNode(fastest), "energy grew without work, to " + shown(swinging) + " J where " + shown(energy - excess) + " J were put in" };
 	}
 	if (excess <= tolerance * scale) {
 		lastGood.step     = step;
@@ -41,7 +73,12 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 		if (!a.contacts.order.empty()) lastGood.contacts = a.contacts, lastGood.segments = a.segments;
 	}
 	if (compare) lastExcess = excess, compared = step;
-	return {};
+	Verdict good;
+	if (!warned && overlaps.thickest.share() > OverlapWatch::thin) {
+		warned       = true;
+		good.warning = described(overlaps.thickest) + "that the zones behind are high; up to 10 % a joint may count as thin. Joints should be stiffer or loads smaller";
+	}
+	return good;
 }
 
 long StabilityWatch::restore(BlockAssembly& a) const
