@@ -1,7 +1,7 @@
 # yade-blocks, GPL-2.0-or-later
 """Stability on stiff and extreme cases: what is expected, what was seen, pass or fail.
 
-	scripts/stability.sh [case=NAME] [tag=TEXT]        about 5 minutes; case=list names them
+	scripts/stability.sh [case=NAME] [tag=TEXT]        about a minute; case=list names them, case=quick leaves out the long ones
 
 Every case is a function below its name and expectation. It builds a scene, runs it and tells a `Look` what it saw. The energy
 balance, external work = stored + kinetic + friction + fracture + damping, is taken from O.energy all along the run; its
@@ -43,7 +43,7 @@ def column(heights, width=0.2, zoneSize=0.1, labels=None, thickness=1):
 	"""Rectangular blocks one upon the other."""
 	model, y = BlockModel(thickness=thickness), 0
 	for height, label in zip(heights, labels or ['rock'] * len(heights)):
-		model.addRegion(rectangle(0, y, width, y + height), label, zoneSize=zoneSize, zoning='regular')
+		model.addRegion(rectangle(0, y, width, y + height), label, zoneSize=zoneSize, zoning='regular', conforming=False) # the same points anyway
 		y += height
 	model.bond()
 	return model
@@ -79,9 +79,10 @@ def engines(joints, stepper={}, contact=False, **integrator):
 dynamic = dict(quasiStatic=False) # true masses, O.dt from the stepper
 
 
-def kick(model, amplitude, seed=1):
-	"""Random displacements of all grid points that are not held [m]."""
-	shifts = np.random.default_rng(seed).uniform(-amplitude, amplitude, model.position.shape)
+def kick(model, amplitude, held=()):
+	"""Random displacements of all grid points but those that are held [m]."""
+	shifts = np.random.default_rng(1).uniform(-amplitude, amplitude, model.position.shape)
+	for nodes in held: shifts[nodes] = 0
 	model.position[:] += shifts
 
 
@@ -165,12 +166,12 @@ def outcome(run):
 	return 'silent', ''
 
 
-cases = [] # name, expectation, function
+cases = [] # name, expectation, function, whether it takes longer than a second
 
 
-def case(name, expected):
+def case(name, expected, slow=False):
 	def enlist(function):
-		cases.append((name, expected, function))
+		cases.append((name, expected, function, slow))
 		return function
 	return enlist
 
@@ -207,9 +208,7 @@ def seriesAndKick(look, heights, moduli, kn):
 
 	look.forget()
 	model = scene(0)
-	kick(model, 1e-9)
-	model.position[level(model, 0)] = model.reference[level(model, 0)]
-	model.position[level(model, height)] = model.reference[level(model, height)]
+	kick(model, 1e-4 * min(1e-5, *heights), held=(level(model, 0), level(model, height))) # strains of 1e-4 where zones are lowest
 	O.engines = engines(joints(kn, labels=labels), dict(quasiStatic=False, safety=0.95), damping='none')
 	look.run(20000)
 
@@ -343,7 +342,7 @@ def sliver(look):
 	seriesAndKick(look, [0.2, 0.2e-6, 0.2], [young] * 3, young / 0.2)
 
 
-@case('edge of 1e-6', 'areas of joints add up; stress of springs in series; undamped the energy stays')
+@case('edge of 1e-6', 'areas of joints add up; stress of springs in series; undamped the energy stays', slow=True)
 def shortEdge(look):
 	step = 0.2e-6
 
@@ -372,9 +371,7 @@ def shortEdge(look):
 	look.equal('stress by springs in series', model.groupForce('top') / 0.2, stress, 1e-5 + 10 * unbalanced)
 	look.forget()
 	model = scene(0)
-	model.position[model.firstNode[1] + 1:model.firstNode[2]] += 0
-	free = np.setdiff1d(np.arange(model.nodeCount), np.concatenate([level(model, 0), level(model, 0.4)]))
-	model.position[free] += np.random.default_rng(1).uniform(-1e-9, 1e-9, (len(free), 2))
+	kick(model, 1e-4 * step, held=(level(model, 0), level(model, 0.4)))
 	O.engines = engines(joints(kn), dict(quasiStatic=False, safety=0.95), damping='none')
 	look.run(20000)
 
@@ -453,7 +450,9 @@ def frictionZero(look):
 	for contact in False, True:
 		look.forget()
 		_, tau = shear(look, 2e-4, contact=contact, bonded=False)
-		look.below('tau/sigma' + (' (free)' if contact else ' (joint)'), abs(tau) / 1e6, 1e-9)
+		# The contact's energy kn d^2 L/2 falls as its length L does: a force kn d^2/2 in the direction of sliding, d/(2 L) of the normal one.
+		overlap = 1e6 / (young / 0.2)
+		look.below('tau/sigma' + (' (free)' if contact else ' (joint)'), abs(tau) / 1e6, overlap / 0.2 if contact else 1e-12)
 
 
 @case('friction 89 degrees', 'sticks, then slides at sigma tan(89 degrees), point joint and free contact')
@@ -487,39 +486,45 @@ def press(look, contact, overlaps, kn=young / 2):
 	"""Loads a block upon another until they overlap by so much [m], one overlap after the other; what was said meanwhile, and the outcomes."""
 	begin()
 	model = column([0.1, 0.1], width=0.1, zoneSize=0.05)
-	model.drive('low', range(model.firstNode[1]), 'xy')
-	model.drive('sides', range(model.firstNode[1], model.firstNode[2]), 'x')
-	model.push('load', range(model.firstNode[1], model.firstNode[2]), 'y', force=0)
+	lower, upper = range(model.firstNode[1]), range(model.firstNode[1], model.firstNode[2])
+	model.drive('low', lower, 'xy')
+	model.drive('sides', upper, 'x')
+	model.push('load', upper, 'y', force=0)
 	model.insert()
 	O.dt, O.engines = 1, engines(joints(kn, bonded=not contact), contact=contact, alpha=0.5)
-	texts, ends = [], []
+	texts, ends, before = [], [], 0
+
+	def load(overlap):
+		for share in np.linspace(0, 1, 21)[1:]: # little by little: a sudden load would press twice as deep
+			model.setTarget('load', -kn * 0.1 * (before + share * (overlap - before)))
+			for _ in range(100): O.step()
+			if overlap != overlaps[-1]: look.balance() # the last one is not to be computed
+
 	for overlap in overlaps:
-		model.setTarget('load', -kn * overlap * 0.1)
-		with messages() as text: ends.append(outcome(lambda: look.run(1000)))
+		with messages() as text: ends.append(outcome(lambda: load(overlap)))
 		texts += text
+		before = overlap
 	return texts, ends
 
 
-# squares of 0.1 m, zones of 0.05 m: 10 % is 0.005 m; the depth limit is area/outline = 0.025 m, and from 0.41 of it a contact carries less
-for contact in False, True:
+# Squares of 0.1 m, zones of 0.05 m: 10 % is 0.005 m. A joint is refused when it has passed the zone. A free contact of such squares pushes
+# with at most kn x 0.008 m; a greater load drives one block through the other.
+for contact, tooMuch, complaint in (False, 0.06, 'blocks 0 and 1 overlap'), (True, 0.011, 'has gone into block'):
 
-	@case('precompression of ' + ('free contacts' if contact else 'joints'), 'quiet at 8 % of a zone, one warning that names the blocks beyond 10 %, refused where contact gets lost')
-	def overlap(look, contact=contact):
-		(quiet, warned, again, _), ends = press(look, contact, [0.004, 0.006, 0.008, 0.011])
-		print(quiet, warned, again, ends)
-		look.true('overlap' not in quiet and ends[0][0] == 'silent', 'quiet at 0.004 m')
-		look.true(warned.count('overlap') == 1 and 'blocks 0 and 1' in warned and ends[1][0] == 'silent', 'warned at 0.006 m: ' + warned.strip()[:60])
+	@case('precompression of ' + ('free contacts' if contact else 'joints'), 'quiet at 8 % of a zone, one warning with blocks and numbers beyond 10 %, refused far beyond')
+	def precompression(look, contact=contact, tooMuch=tooMuch, complaint=complaint):
+		(quiet, warned, again, _), ends = press(look, contact, [0.004, 0.006, 0.007, tooMuch])
+		look.true('overlap' not in quiet and ends[0][0] == 'silent', 'quiet at 8 %')
+		look.true(warned.count('overlap') == 1 and 'blocks 0 and 1' in warned and ends[1][0] == 'silent', 'warned: "%s"' % warned.strip().split(': ', 3)[-1])
 		look.true('overlap' not in again and ends[2][0] == 'silent', 'only once')
-		look.true(ends[3][0] == 'detected' and 'blocks 0 and 1' in ends[3][1], 'stopped at 0.011 m: ' + ends[3][1][:60])
+		look.true(ends[3][0] == 'detected' and complaint in ends[3][1], 'stopped: "%s"' % ends[3][1].split(';')[0])
 
 
 @case('contact too soft', 'a block that would go through another unseen is refused')
 def tooSoft(look):
 	model = collision(kn=1e9, velocity=100)
-	found, message = outcome(lambda: look.run(4000))
-	look.true(found == 'detected' and 'blocks 0 and 1' in message, found + ': ' + message[:80])
-	look.energyError = None # the scene is one that cannot be computed
-	look.first = None
+	found, message = outcome(lambda: O.run(4000, True))
+	look.true(found == 'detected' and 'has gone into block' in message, 'stopped: "%s"' % message.split(';')[0])
 
 
 # ---- motion
@@ -555,7 +560,7 @@ def impact(look):
 		look.true(mean(right) > mean(left), 'part with %.1f m/s' % (mean(right) - mean(left)))
 
 
-@case('spinning blocks', '1000 turns: angular momentum to rounding, elastic energy as at the start')
+@case('spinning blocks', '1000 turns: angular momentum to rounding, elastic energy as at the start', slow=True)
 def spinning(look):
 	begin(rock=dict(poisson=0.2))
 	model = column([0.1, 0.1], width=0.2, zoneSize=0.1)
@@ -568,19 +573,21 @@ def spinning(look):
 	model.velocity[:] = rate * np.stack([-away[:, 1], away[:, 0]], axis=1)
 	spin = lambda: (model.mass * (model.position[:, 0] * model.velocity[:, 1] - model.position[:, 1] * model.velocity[:, 0])).sum()
 	O.step()
-	before, elastic = spin(), []
-	steps = int(1000 * 2 * math.pi / rate / O.dt)
-	for _ in range(100):
-		look.run(steps // 100)
-		elastic.append(energy('Zones') + energy('Joints'))
+	before, steps = spin(), int(1000 * 2 * math.pi / rate / O.dt)
+	look.run(steps, samples=100)
 	look.below('angular momentum lost', abs(spin() / before - 1), steps * eps)
-	first, last = np.mean(elastic[:50]), np.mean(elastic[50:])
-	# the elastic energy swings about its mean as much as it is high (it starts from none): the means of 50 samples scatter by 1/sqrt(50)
-	look.equal('elastic energy, second half by first', last / first, 1, 3 * np.std(elastic) / np.mean(elastic) * math.sqrt(2 / 50))
+	elastic = energy('Zones') + energy('Joints')
+	look.balance()
+	look.forget()
+	model.velocity[:] = 0
+	O.engines[-1].damping, O.engines[-1].alpha = 'local', 0.5
+	for _ in range(20000): O.step()
+	# what is left is rounding: strains of eps x some nodes x turned components against 1e-3, their square; 1e6 steps of it
+	look.below('elastic energy left when stopped, by that of spinning', (energy('Zones') + energy('Joints')) / elastic, 1e-12)
 	look.sentences.append('%d steps' % steps)
 
 
-@case('1e6 steps at rest', 'nothing moves but by rounding; a dry block on a slope of half its friction does not creep')
+@case('1e6 steps at rest', 'nothing moves but by rounding; a dry block on a slope of half its friction does not creep', slow=True)
 def atRest(look):
 	for what in 'bonded', 'dry':
 		look.forget()
@@ -600,7 +607,7 @@ def atRest(look):
 		look.below('kinetic by elastic energy', energy('Kinetic') / (energy('Zones') + energy('Joints')), 1e-12)
 
 
-@case('crack opened and closed 100 times', 'as stiff at every closing as the springs in series; no energy is ever created')
+@case('crack opened and closed 100 times', 'as stiff at every closing as the springs in series; no energy is ever created', slow=True)
 def reclosing(look):
 	for contact in False, True:
 		look.forget()
@@ -613,21 +620,28 @@ def reclosing(look):
 		kn, stroke, steps = young / 0.1, 2e-5, 1000
 		O.dt, O.engines = 1, engines(joints(kn, cohesion=1e6, tension=1e6, frictionAngle=0.6), contact=contact, alpha=0.5)
 		closed, opened, lost = [], [], []
+
+		def move(velocity):
+			model.setTarget('top', velocity)
+			look.run(steps, samples=2)
+			model.setTarget('top', 0)
+			look.run(400, samples=1) # waves die out
+			return model.groupForce('top') / 0.1
+
 		for cycle in range(100):
-			for quarter, velocity in enumerate((1, -1, -1, 1)):
-				model.setTarget('top', velocity * stroke / steps)
-				look.run(steps, samples=4)
-				if quarter == 0: opened.append(model.groupForce('top') / 0.1)
-				if quarter == 2: closed.append(model.groupForce('top') / 0.1)
+			opened.append(move(stroke / steps))
+			move(-stroke / steps)
+			closed.append(move(-stroke / steps))
+			move(stroke / steps)
 			lost.append(energy('Damping') + energy('Friction') + energy('Fracture'))
 		expected = -stroke / (0.2 / young + 1 / kn)
 		where = 'free' if contact else 'joint'
-		# local damping leaves an unbalanced wave of the velocity jump at the turning point: steps of 1/1000 of the stroke, over a dozen of steps for a wave
 		look.true((model.pointStatus != 0).all(), '%s: broken' % where)
-		look.below('closing stress off by', abs(np.array(closed) / expected - 1).max(), 0.02)
-		look.below('scatter of closings', np.ptp(closed[1:]) / abs(expected), 1e-3)
-		look.below('stress when open', abs(np.array(opened)).max() / abs(expected), 1e-2)
-		look.true((np.diff(lost) >= -1e-9 * max(lost)).all(), 'never gains')
+		# the contact is linear but for depths by lengths (1e-5/0.1, free) and rotations; waves are down to 0.5^(400/20)
+		look.below('closing stress off by', abs(np.array(closed) / expected - 1).max(), 1e-3)
+		look.below('scatter of closings', np.ptp(closed[1:]) / abs(expected), 1e-5)
+		look.below('stress when open', abs(np.array(opened)).max() / abs(expected), 1e-5)
+		look.true((np.diff(lost) >= -1e-9 * max(lost)).all(), 'energy is never given back')
 
 
 # ---- sizes
@@ -688,7 +702,7 @@ def single(look):
 	look.equal('reaction by weight', model.groupForce('low') / (model.mass.sum() * g), 1, 1e-8)
 
 
-@case('10,000 blocks', 'a block of 1 m pressed together, with the engines of general contact; energy and forces balance')
+@case('10,000 blocks', 'a block of 1 m pressed together, with the engines of general contact; energy and forces balance', slow=True)
 def tenThousand(look):
 	begin(rock=dict(poisson=0.2))
 	start = time.process_time()
@@ -721,7 +735,7 @@ def stepCost(build, watchPeriod, steps):
 	return (time.process_time() - start) / steps
 
 
-@case('cost of the watch', 'on by default; a look every 100 steps costs less than 1 % of them')
+@case('cost of the watch', 'on by default; a look every 100 steps costs less than 1 % of them', slow=True)
 def watchCost(look):
 	def bonded():
 		begin()
@@ -752,22 +766,24 @@ def shown(entry):
 	return '| %s | %s | %s | %s | %s |' % (entry['case'], entry['expected'], '; '.join(entry['seen']), balance, 'pass' if entry['passed'] else '**FAIL**')
 
 
-names = [name for name, _, _ in cases]
-if p.case == 'list': print('\n'.join(names)); sys.exit(0)
-chosen = [c for c in cases if p.case in ('all', c[0])] or [c for c in cases if p.case in c[0]]
+names = [name for name, *_ in cases]
+if p.case == 'list':
+	print('\n'.join(names))
+	sys.exit(0)
+chosen = [c for c in cases if p.case == 'all' or p.case == 'quick' and not c[3] or p.case == c[0]]
 if not chosen:
-	print('stability.case must be one of: %s; got %s' % (', '.join(names), p.case), file=sys.stderr)
+	print('stability.case must be all, quick or one of: %s; got %s' % (', '.join(names), p.case), file=sys.stderr)
 	sys.exit(2)
 
 entries = []
-for name, expected, function in chosen:
+for name, expected, function, _ in chosen:
 	look, start = Look(), time.process_time()
 	try:
 		function(look)
 	except Exception as error: # a case that cannot even be run has failed, and the others go on
 		look.true(False, '%s: %s' % (type(error).__name__, error))
 	look.forget()
-	if look.energyError is not None: look.true(look.energyError <= look.energyLimit, 'energy') if look.energyError > look.energyLimit else None
+	if look.energyError is not None and not look.energyError <= look.energyLimit: look.true(False, 'energy does not balance')
 	entries.append({'case': name, 'expected': expected, 'seen': look.sentences, 'energy_error': look.energyError, 'steps': look.steps,
 	                'cpu_s': time.process_time() - start, 'passed': look.passed})
 	print('%-4s %-36s %5.1f s  energy %s' % ('ok' if look.passed else 'FAIL', name, entries[-1]['cpu_s'], 'none' if look.energyError is None else '%.1e' % look.energyError), flush=True)

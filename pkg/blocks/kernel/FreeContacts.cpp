@@ -1,6 +1,5 @@
 // yade-blocks, GPL-2.0-or-later
 #include "BlockAssembly.hpp"
-#include "OverlapWatch.hpp"
 #include <algorithm>
 #include <numeric>
 
@@ -371,8 +370,6 @@ void updateContact(BlockAssembly& a, int contact)
 			c.active.push_back(i);
 		else if (before || e.area > 0) { // they have parted
 			c.friction += shearEnergy(c, e);
-			const Real depth = std::sqrt((e.sigma[0] * e.sigma[0] + e.sigma[1] * e.sigma[1]) / 2) / c.joint.kn; // in the last step
-			if (depth > OverlapWatch::lostFrom * e.shape.depthLimit) c.lost = std::max(c.lost, depth);
 			e.slip = e.sigma = e.tau = { 0, 0 };
 			e.area                   = 0;
 		}

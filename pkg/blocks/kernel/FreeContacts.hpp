@@ -37,7 +37,6 @@ struct FreeContact {
 	std::vector<EdgePair> edges;            ///< sorted by edge
 	std::vector<int>      active;           ///< those of `edges` that touch, as of the last updateContact
 	Real                  friction = 0;     ///< dissipated so far [J]
-	Real                  lost     = 0;     ///< depth at which blocks have gone through each other, see OverlapWatch [m]
 };
 
 struct FreeContacts {

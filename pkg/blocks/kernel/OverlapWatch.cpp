@@ -4,6 +4,23 @@
 #include <limits>
 
 namespace blocks {
+namespace {
+
+	Vec2 meanOf(const std::vector<Vec2>& x, const std::array<int, 3>& node) { return (x[node[0]] + x[node[1]] + x[node[2]]) / 3; }
+
+	/// Square of the distance from a point to a block's outline, in the reference positions.
+	Real squareToOutline(const BlockAssembly& a, int block, const Vec2& p)
+	{
+		Real least = std::numeric_limits<Real>::infinity();
+		for (int e = a.firstEdge[block]; e < a.firstEdge[block + 1]; ++e) {
+			const Vec2 from = a.reference[a.edgeNodes[e][0]], along = a.reference[a.edgeNodes[e][1]] - from;
+			const Real s = std::min(Real(1), std::max(Real(0), (p - from).dot(along) / along.squaredNorm()));
+			least        = std::min(least, (p - from - s * along).squaredNorm());
+		}
+		return least;
+	}
+
+} // namespace
 
 void OverlapWatch::measure(const BlockAssembly& a)
 {
@@ -11,60 +28,66 @@ void OverlapWatch::measure(const BlockAssembly& a)
 	for (const auto& [from, to] : a.edgeNodes)
 		next[from] = to;
 	zoneHeight.assign(a.nodeCount(), std::numeric_limits<Real>::infinity());
-	for (int z = 0; z < a.zoneCount(); ++z)
-		for (int i = 0; i < 3; ++i) {
-			const int from = a.zoneNodes[z][i], to = a.zoneNodes[z][(i + 1) % 3];
-			if (next[from] == to) zoneHeight[from] = 2 * a.zoneVolume[z] / a.thickness / (a.reference[to] - a.reference[from]).norm();
-		}
-
-	greatest.resize(a.blockCount());
+	innermost.assign(a.blockCount(), { -1, -1, -1 });
 	for (int block = 0; block < a.blockCount(); ++block) {
-		Real area = 0, outline = 0;
-		for (int e = a.firstEdge[block]; e < a.firstEdge[block + 1]; ++e) {
-			const Vec2 origin = a.reference[a.firstNode[block]], p = a.reference[a.edgeNodes[e][0]], q = a.reference[a.edgeNodes[e][1]];
-			area += cross(p - origin, q - origin) / 2;
-			outline += (q - p).norm();
+		Real farthest = 0;
+		auto consider = [&](const std::array<int, 3>& point) {
+			const Real square = squareToOutline(a, block, meanOf(a.reference, point));
+			if (square > farthest) farthest = square, innermost[block] = point;
+		};
+		for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z) {
+			const auto& node = a.zoneNodes[z];
+			consider(node);
+			for (int i = 0; i < 3; ++i) {
+				const int from = node[i], to = node[(i + 1) % 3];
+				if (next[from] == to) zoneHeight[from] = 2 * a.zoneVolume[z] / a.thickness / (a.reference[to] - a.reference[from]).norm();
+				if (next[from] < 0) consider({ from, from, from });
+			}
 		}
-		greatest[block] = lostFrom * area / outline;
 	}
 }
 
-void OverlapWatch::compare(const std::array<int, 2>& block, int edge1, int edge2, Real end0, Real end1)
+/// Whether a block's innermost point lies within another block, by the number of edges to its right.
+bool OverlapWatch::entered(const BlockAssembly& a, int block, int other) const
 {
-	if (!(end0 > 0 || end1 > 0)) return;
-	const Real d0 = std::max(end0, Real(0)), d1 = std::max(end1, Real(0));
-	auto       worse = [&](Overlap& worst, Real depth, Real bound) {
-                if (depth > worst.share() * bound) worst = { block, depth, bound };
-	};
-	worse(thickest, std::max(d0, d1), std::min(zoneHeight[edge1], zoneHeight[edge2]));
-	worse(deepest, std::sqrt((d0 * d0 + d1 * d1) / 2), std::min(greatest[block[0]], greatest[block[1]]));
+	if (innermost[block][0] < 0) return false;
+	const Vec2 p   = meanOf(a.position, innermost[block]);
+	bool       odd = false;
+	for (int e = a.firstEdge[other]; e < a.firstEdge[other + 1]; ++e) {
+		const Vec2 &from = a.position[a.edgeNodes[e][0]], &to = a.position[a.edgeNodes[e][1]];
+		if ((from.y() > p.y()) != (to.y() > p.y()) && p.x() < from.x() + (p.y() - from.y()) / (to.y() - from.y()) * (to.x() - from.x())) odd = !odd;
+	}
+	return odd;
 }
 
 void OverlapWatch::look(const BlockAssembly& a)
 {
 	if (int(zoneHeight.size()) != a.nodeCount()) measure(a);
-	thickest = deepest = {};
-	inverted           = -1;
+	joint = contact = {};
+	through         = { -1, -1 };
+	inverted        = -1;
+	auto compare    = [](Overlap& worst, const std::array<int, 2>& block, Real depth, Real height) {
+                if (depth > worst.share() * height) worst = { block, depth, height };
+	};
 
 	for (size_t i = 0; i < a.segments.size(); ++i) {
 		const Segment& g = a.segments[i];
-		if (g.area > 0) compare(g.block, g.node[0], g.node[2], -a.points[2 * i].opening, -a.points[2 * i + 1].opening);
+		if (g.area > 0) // else it is a free contact by now
+			compare(joint, g.block, -std::min(a.points[2 * i].opening, a.points[2 * i + 1].opening), std::min(zoneHeight[g.node[0]], zoneHeight[g.node[2]]));
 	}
 	for (int i : a.contacts.order) {
 		const FreeContact& c = a.contacts.all[i];
 		for (int index : c.active) {
 			const EdgePair& e = c.edges[index];
-			compare(c.block, e.node[0], e.node[2], -e.sigma[0] / c.joint.kn, -e.sigma[1] / c.joint.kn);
+			compare(contact, c.block, -std::min(e.sigma[0], e.sigma[1]) / c.joint.kn, std::min(zoneHeight[e.node[0]], zoneHeight[e.node[2]]));
 		}
-		if (c.lost > deepest.share() * std::min(greatest[c.block[0]], greatest[c.block[1]]))
-			deepest = { c.block, c.lost, std::min(greatest[c.block[0]], greatest[c.block[1]]) };
+		for (int side : { 0, 1 })
+			if (through[0] < 0 && entered(a, c.block[side], c.block[1 - side])) through = { c.block[side], c.block[1 - side] };
 	}
 
-	for (int z = 0; z < a.zoneCount(); ++z) {
+	for (int z = 0; z < a.zoneCount() && inverted < 0; ++z) {
 		const auto& node = a.zoneNodes[z];
-		if (cross(a.position[node[1]] - a.position[node[0]], a.position[node[2]] - a.position[node[0]]) > 0) continue;
-		inverted = a.blockOfNode(node[0]);
-		break;
+		if (!(cross(a.position[node[1]] - a.position[node[0]], a.position[node[2]] - a.position[node[0]]) > 0)) inverted = a.blockOfNode(node[0]);
 	}
 }
 

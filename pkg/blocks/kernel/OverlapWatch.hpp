@@ -2,43 +2,41 @@
 #pragma once
 #include "Types.hpp"
 
-/// Blocks that overlap more than the springs between them were made for. Springs stand for a joint that is thin against the
-/// zones behind it, and a free contact carries less the deeper it gets once it has passed a share of its depth limit (EdgeContact.hpp):
-/// from there on blocks go through each other.
+/// Blocks that overlap more than the springs between them were made for. Springs stand for joints that are thin against the zones
+/// behind them. And a free contact that gets too deep comes to carry nothing (EdgeContact.hpp): blocks go through each other.
 namespace blocks {
 
 struct BlockAssembly;
 
 /// Two edges, of two blocks, that overlap.
 struct Overlap {
-	std::array<int, 2> block { -1, -1 }; ///< -1: none
-	Real               depth = 0;        ///< [m]
-	Real               bound = 0;        ///< what the depth is compared with [m]
+	std::array<int, 2> block { -1, -1 };
+	Real               depth  = 0; ///< [m]
+	Real               height = 1; ///< of the lower of the two zones behind the edges [m]
 
-	Real share() const { return block[0] < 0 ? 0 : depth / bound; }
+	Real share() const { return depth / height; }
 };
 
 class OverlapWatch {
 public:
-	/// Overlap by height of the lower of the two zones behind, from which a joint is not thin any more.
+	/// Overlap by height of the zones behind, beyond which a joint is not thin any more. At 1 it has passed the zone.
 	static constexpr Real thin = 0.1;
-	/// Depth by depth limit, area by outline of the smaller block, of the greatest normal force between parallel edges: the maximum of
-	/// d/dD (D^2 h(6 D^2)). A bonded joint knows no limit, but has to become a free contact when it breaks: the same is asked of it.
-	static constexpr Real lostFrom = 0.41;
 
-	/// Looks at all joints and contacts that touch.
+	/// Looks at all joints and contacts that touch, and at all zones.
 	void look(const BlockAssembly&);
 
-	Overlap thickest; ///< deeper end by zone height: the greatest
-	Overlap deepest;  ///< root mean square of both ends by the depth `lostFrom` x limit: the greatest
-	int     inverted = -1; ///< block of the first zone that has turned inside out, or -1
+	Overlap            joint, contact;     ///< of bonded edges and of free ones: the greatest share
+	std::array<int, 2> through { -1, -1 }; ///< the first block whose innermost point lies within the other one; -1: none
+	int                inverted = -1;      ///< block of the first zone that has turned inside out; -1: none
+
+	const Overlap& thickest() const { return joint.share() > contact.share() ? joint : contact; }
 
 private:
 	void measure(const BlockAssembly&);
-	void compare(const std::array<int, 2>& block, int edge1, int edge2, Real end0, Real end1);
+	bool entered(const BlockAssembly&, int block, int other) const;
 
-	std::vector<Real> zoneHeight; ///< of the zone behind the boundary edge that starts at a grid point; infinite without zones [m]
-	std::vector<Real> greatest;   ///< block -> lostFrom x depth limit [m]
+	std::vector<Real>               zoneHeight; ///< of the zone behind the boundary edge that starts at a grid point; infinite without zones [m]
+	std::vector<std::array<int, 3>> innermost;  ///< block -> grid points whose mean is farthest from the outline; -1: it has no zones
 };
 
 } // namespace blocks

@@ -4,11 +4,12 @@
 
 namespace blocks {
 namespace {
-	/// "blocks 3 and 7 overlap by 1e-05 m, 12 % of the 8e-05 m "
+	/// "blocks 3 and 7 overlap by 1e-05 m, 12 % of the height of the zones behind (8e-05 m)"
 	std::string described(const Overlap& o)
 	{
 		char text[160];
-		std::snprintf(text, sizeof text, "blocks %d and %d overlap by %.3g m, %.0f %% of the %.3g m ", o.block[0], o.block[1], o.depth, 100 * o.share(), o.bound);
+		std::snprintf(text, sizeof text, "blocks %d and %d overlap by %.3g m, %.0f %% of the height of the zones behind (%.3g m)", o.block[0], o.block[1], o.depth,
+			      100 * o.share(), o.height);
 		return text;
 	}
 
@@ -35,9 +36,10 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 	if (bad >= 0) return { false, a.blockOfNode(bad), "the motion of a grid point is not a number" };
 
 	overlaps.look(a);
-	if (overlaps.deepest.share() > 1)
-		return { false, overlaps.deepest.block[0],
-			 described(overlaps.deepest) + "beyond which a contact carries the less the deeper it gets: they go through each other; joints must be stiffer or loads smaller" };
+	const char* const cure = "; joints must be stiffer or loads smaller";
+	if (overlaps.joint.share() > 1) return { false, overlaps.joint.block[0], described(overlaps.joint) + cure };
+	if (overlaps.through[0] >= 0)
+		return { false, overlaps.through[0], "it has gone into block " + std::to_string(overlaps.through[1]) + " by more than half" + cure };
 	if (overlaps.inverted >= 0) return { false, overlaps.inverted, "a zone has turned inside out" };
 
 	Real turnover = 0;
@@ -74,9 +76,9 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 	}
 	if (compare) lastExcess = excess, compared = step;
 	Verdict good;
-	if (!warned && overlaps.thickest.share() > OverlapWatch::thin) {
+	if (!warned && overlaps.thickest().share() > OverlapWatch::thin) {
 		warned       = true;
-		good.warning = described(overlaps.thickest) + "that the zones behind are high; up to 10 % a joint may count as thin. Joints should be stiffer or loads smaller";
+		good.warning = described(overlaps.thickest()) + "; up to 10 % a joint may count as thin" + cure;
 	}
 	return good;
 }
