@@ -70,19 +70,26 @@ void OverlapWatch::look(const BlockAssembly& a)
                 if (depth > worst.share() * height) worst = { block, depth, height };
 	};
 
-	for (size_t i = 0; i < a.segments.size(); ++i) {
-		const Segment& g = a.segments[i];
-		if (g.area > 0) // else it is a free contact by now
-			compare(joint, g.block, -std::min(a.points[2 * i].opening, a.points[2 * i + 1].opening), std::min(zoneHeight[g.node[0]], zoneHeight[g.node[2]]));
+	auto enter = [&](const std::array<int, 2>& block) {
+		for (int side : { 0, 1 })
+			if (through[0] < 0 && entered(a, block[side], block[1 - side])) through = { block[side], block[1 - side] };
+	};
+
+	for (const Pair& pair : a.pairs) {
+		enter(pair.block);
+		for (int i = pair.first; i < pair.last; ++i) {
+			const Segment& g = a.segments[i];
+			if (g.area > 0) // else it is a free contact by now
+				compare(joint, g.block, -std::min(a.points[2 * i].opening, a.points[2 * i + 1].opening), std::min(zoneHeight[g.node[0]], zoneHeight[g.node[2]]));
+		}
 	}
 	for (int i : a.contacts.order) {
 		const FreeContact& c = a.contacts.all[i];
+		enter(c.block);
 		for (int index : c.active) {
 			const EdgePair& e = c.edges[index];
 			compare(contact, c.block, -std::min(e.sigma[0], e.sigma[1]) / c.joint.kn, std::min(zoneHeight[e.node[0]], zoneHeight[e.node[2]]));
 		}
-		for (int side : { 0, 1 })
-			if (through[0] < 0 && entered(a, c.block[side], c.block[1 - side])) through = { c.block[side], c.block[1 - side] };
 	}
 
 	for (int z = 0; z < a.zoneCount() && inverted < 0; ++z) {

@@ -19,7 +19,7 @@ struct Overlap {
 
 class OverlapWatch {
 public:
-	/// Overlap by height of the zones behind, beyond which a joint is not thin any more. At 1 it has passed the zone.
+	/// Overlap by height of the zones behind beyond which a joint is not thin any more.
 	static constexpr Real thin = 0.1;
 
 	/// Looks at all joints and contacts that touch, and at all zones.

@@ -37,7 +37,6 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 
 	overlaps.look(a);
 	const char* const cure = "; joints must be stiffer or loads smaller";
-	if (overlaps.joint.share() > 1) return { false, overlaps.joint.block[0], described(overlaps.joint) + cure };
 	if (overlaps.through[0] >= 0)
 		return { false, overlaps.through[0], "it has gone into block " + std::to_string(overlaps.through[1]) + " by more than half" + cure };
 	if (overlaps.inverted >= 0) return { false, overlaps.inverted, "a zone has turned inside out" };
