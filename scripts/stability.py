@@ -334,6 +334,24 @@ for damping, alpha in ('none', 0), ('local', 0.3), ('local', 0.8), ('adaptive', 
 		safetyCase(look, damping, alpha or 0.3)
 
 
+@case('joints stiffened x1e3 in the middle', 'the stepper follows; with O.dt kept the run is refused')
+def stiffened(look):
+	for stepper, expected in (dict(dynamic, safety=0.9), 'silent'), (None, 'refused'):
+		begin()
+		model = panel()
+		model.insert()
+		kick(model, 1e-7)
+		joint = joints(young / 0.25)
+		O.engines = engines(joint, dict(dynamic, safety=0.9), damping='none')
+		for _ in range(300): O.step()
+		O.engines = engines(joint, stepper, damping='none')
+		for _ in range(300): O.step()
+		before = O.dt
+		for i in O.interactions: i.phys.kn *= 1e3
+		found, message = outcome(lambda: O.run(1000, True))
+		look.true(found == expected, 'O.dt kept: ' + found if stepper is None else 'O.dt from %.2g to %.2g s' % (before, O.dt))
+
+
 # ---- shapes
 
 
@@ -607,7 +625,7 @@ def atRest(look):
 		look.below('kinetic by elastic energy', energy('Kinetic') / (energy('Zones') + energy('Joints')), 1e-12)
 
 
-@case('crack opened and closed 100 times', 'as stiff at every closing as the springs in series; no energy is ever created', slow=True)
+@case('crack opened and closed 100 times', 'as stiff at every closing as the springs in series; dissipation never falls', slow=True)
 def reclosing(look):
 	for contact in False, True:
 		look.forget()
@@ -637,11 +655,11 @@ def reclosing(look):
 		expected = -stroke / (0.2 / young + 1 / kn)
 		where = 'free' if contact else 'joint'
 		look.true((model.pointStatus != 0).all(), '%s: broken' % where)
-		# the contact is linear but for depths by lengths (1e-5/0.1, free) and rotations; waves are down to 0.5^(400/20)
+		# it is linear but for depths by lengths (1e-5/0.1, free) and rotations; waves are down to 0.5^(400/20)
 		look.below('closing stress off by', abs(np.array(closed) / expected - 1).max(), 1e-3)
 		look.below('scatter of closings', np.ptp(closed[1:]) / abs(expected), 1e-5)
 		look.below('stress when open', abs(np.array(opened)).max() / abs(expected), 1e-5)
-		look.true((np.diff(lost) >= -1e-9 * max(lost)).all(), 'energy is never given back')
+		look.true((np.diff(lost) >= -1e-9 * max(lost)).all(), 'dissipation never falls, energy error %.0e' % look.runError)
 
 
 # ---- sizes
@@ -669,15 +687,13 @@ def couplet(look, scale):
 	return max(stress), np.count_nonzero(model.pointStatus), np.array(stress)
 
 
-@case('micrometre and kilometre', 'stresses and cracks of a couplet of 40 mm')
+@case('micrometre and kilometre', 'stresses and cracks of a couplet of 40 mm, to the last bit')
 def sizes(look):
-	peak, broken, stress = couplet(look, 1)
+	peak, broken, curve = couplet(look, 1)
 	look.sentences.append('40 mm: peak %.6g Pa, %d points broken' % (peak, broken))
-	for name, scale in ('1 um', 1e-6 / 0.04), ('1 km', 1e3 / 0.04):
-		other, cracks, curve = couplet(look, scale)
-		# the same numbers but for rounding, which breaking joints amplify: up to the peak by less than 1e-9 (openings of 1e-7 of the size, rounded by 1e-16)
-		look.equal(name + ': peak', other, peak, 1e-8)
-		look.true(cracks == broken, '%d points broken' % cracks)
+	for name, scale in ('1.2 um', 2.0**-15), ('1.3 km', 2.0**15): # powers of two are rounded alike
+		other, cracks, stress = couplet(look, scale)
+		look.true((stress == curve).all() and cracks == broken, '%s: the same' % name)
 
 
 @case('single block', 'falls as bodies fall; carries its weight')
