@@ -291,6 +291,31 @@ TEST(StabilityWatch, LetsModesNearTheLimitSwing)
 	}
 }
 
+TEST(StabilityWatch, LetsAPlatenSwing)
+{
+	// A thin layer between a held foot and a platen that is pushed by nothing: one degree of freedom, k = E A/h = 4e11 N/m and half the
+	// layer's mass, at 0.95 of its limit; it is the group that swings, the free grid points' share is none.
+	BlockAssembly a;
+	a.addMaterial({ 20e9, 0, 2000 });
+	addGrid(a, { 0, 0 }, 0.5, 0.025, 2, 1);
+	a.addGroup(driven("foot", dofs(a, 1, [](const Vec2& x) { return x.y() == 0; }), 0));
+	a.addGroup(driven("aside", dofs(a, 0, [](const Vec2&) { return true; }), 0));
+	a.addGroup(pushed("platen", dofs(a, 1, [](const Vec2& x) { return x.y() > 0; }), 0));
+	const Real dt = 0.95 * 2 / std::sqrt(20e9 / 0.025 * 0.5 / (2000 * 0.5 * 0.025 / 2));
+	for (int n = 0; n < a.nodeCount(); ++n)
+		if (a.reference[n].y() > 0) a.position[n].y() += 1e-9;
+	for (const int first : { 0, 1, 3, 7 }) {
+		StabilityWatch          watch;
+		StabilityWatch::Verdict verdict;
+		for (int i = 0; i < first; ++i) {
+			computeForces(a);
+			Damping none = damped(Damping::Kind::none);
+			integrate(a, none, dt, i * dt);
+		}
+		EXPECT_EQ(firstAlarm(a, watch, dt, 3000, verdict), -1) << verdict.reason;
+	}
+}
+
 TEST(StabilityWatch, NamesTheBlockThatIsNotANumber)
 {
 	BlockAssembly  a = pulled();
