@@ -578,7 +578,7 @@ def impact(look):
 		look.true(mean(right) > mean(left), 'part with %.1f m/s' % (mean(right) - mean(left)))
 
 
-@case('spinning blocks', '1000 turns: angular momentum to rounding, elastic energy as at the start', slow=True)
+@case('spinning blocks', '1000 turns: angular momentum to rounding; when stopped no stress is left', slow=True)
 def spinning(look):
 	begin(rock=dict(poisson=0.2))
 	model = column([0.1, 0.1], width=0.2, zoneSize=0.1)
@@ -718,7 +718,7 @@ def single(look):
 	look.equal('reaction by weight', model.groupForce('low') / (model.mass.sum() * g), 1, 1e-8)
 
 
-@case('10,000 blocks', 'a block of 1 m pressed together, with the engines of general contact; energy and forces balance', slow=True)
+@case('10,000 blocks', 'a block of 1 m pressed together, with the engines of general contact; energy balances', slow=True)
 def tenThousand(look):
 	begin(rock=dict(poisson=0.2))
 	start = time.process_time()

@@ -66,30 +66,31 @@ void OverlapWatch::look(const BlockAssembly& a)
 	joint = contact = {};
 	through         = { -1, -1 };
 	inverted        = -1;
-	auto compare    = [](Overlap& worst, const std::array<int, 2>& block, Real depth, Real height) {
-                if (depth > worst.share() * height) worst = { block, depth, height };
-	};
-
-	auto enter = [&](const std::array<int, 2>& block) {
-		for (int side : { 0, 1 })
-			if (through[0] < 0 && entered(a, block[side], block[1 - side])) through = { block[side], block[1 - side] };
+	auto enter      = [&](const std::array<int, 2>& block) {
+                for (int side : { 0, 1 })
+                        if (through[0] < 0 && entered(a, block[side], block[1 - side])) through = { block[side], block[1 - side] };
 	};
 
 	for (const Pair& pair : a.pairs) {
-		enter(pair.block);
+		Overlap worst;
 		for (int i = pair.first; i < pair.last; ++i) {
-			const Segment& g = a.segments[i];
-			if (g.area > 0) // else it is a free contact by now
-				compare(joint, g.block, -std::min(a.points[2 * i].opening, a.points[2 * i + 1].opening), std::min(zoneHeight[g.node[0]], zoneHeight[g.node[2]]));
+			const Segment& g     = a.segments[i];
+			const Real     depth = -std::min(a.points[2 * i].opening, a.points[2 * i + 1].opening);
+			if (g.area > 0 && depth > 0) // else it is a free contact by now
+				worst.raise(pair.block, depth, std::min(zoneHeight[g.node[0]], zoneHeight[g.node[2]]));
 		}
+		if (worst.share() > thin) enter(pair.block); // others need not be asked
+		if (worst.share() > joint.share()) joint = worst;
 	}
 	for (int i : a.contacts.order) {
 		const FreeContact& c = a.contacts.all[i];
-		enter(c.block);
+		Overlap            worst;
 		for (int index : c.active) {
 			const EdgePair& e = c.edges[index];
-			compare(contact, c.block, -std::min(e.sigma[0], e.sigma[1]) / c.joint.kn, std::min(zoneHeight[e.node[0]], zoneHeight[e.node[2]]));
+			worst.raise(c.block, -std::min(e.sigma[0], e.sigma[1]) / c.joint.kn, std::min(zoneHeight[e.node[0]], zoneHeight[e.node[2]]));
 		}
+		if (c.active.empty() || worst.share() > thin) enter(c.block); // edges that are too deep do not touch any more
+		if (worst.share() > contact.share()) contact = worst;
 	}
 
 	for (int z = 0; z < a.zoneCount() && inverted < 0; ++z) {

@@ -15,6 +15,10 @@ struct Overlap {
 	Real               height = 1; ///< of the lower of the two zones behind the edges [m]
 
 	Real share() const { return depth / height; }
+	void raise(const std::array<int, 2>& blocks, Real d, Real h)
+	{
+		if (d * height > depth * h) block = blocks, depth = d, height = h;
+	}
 };
 
 class OverlapWatch {
