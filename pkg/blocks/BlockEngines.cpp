@@ -203,7 +203,8 @@ void BlockIntegrator::advance()
 void BlockIntegrator::watchStability(BlockModel& model)
 {
 	const long step    = scene->iter;
-	const auto verdict = watch.look(model.assembly, step, scene->time);
+	const auto verdict = watch.look(model.assembly, step, scene->time, scene->dt);
+	if (!verdict.warning.empty()) LOG_WARN("step " << step << ": " << verdict.warning);
 	if (verdict.stable) return;
 
 	string    message = "unstable at step " + std::to_string(step) + ", block " + std::to_string(verdict.block) + ": " + verdict.reason;

@@ -69,8 +69,8 @@ def test_theBlockIsNamed():
 	assert (step, block) in ((10, 1), (11, 1)) and O.iter in (9, 10)
 
 
-def test_energyOutOfNothing(tmp_path):
-	"""Grid points thrown at each other, without damping: zones turn inside out, which no stable step was made for, and energy grows without end."""
+def test_zonesInsideOut(tmp_path):
+	"""Grid points thrown at each other, without damping: zones turn inside out."""
 	file = str(tmp_path / 'rescue.yade')
 	materials()
 	m = column(heights=(0.3, 0.5))
@@ -81,7 +81,7 @@ def test_energyOutOfNothing(tmp_path):
 	O.run(150, True)
 	m.velocity[:] += 100 * np.random.default_rng(1).normal(size=m.velocity.shape)
 	text, step, block = unstable(lambda: O.run(3000, True))
-	assert 200 <= step <= 1000 and step % 100 == 0 and block in (0, 1) and 'energy grew without work' in text
+	assert 200 <= step <= 1000 and step % 100 == 0 and block in (0, 1) and 'a zone has turned inside out' in text
 	assert 'step 100,' in text and file in text and O.iter == 100 # the last look before that
 
 	def goesOn():

@@ -19,19 +19,52 @@ namespace {
 		return fastest;
 	}
 
+	/// "blocks 3 and 7 overlap by 1e-05 m, 12 % of the height of the zones behind (8e-05 m)"
+	std::string described(const Overlap& o)
+	{
+		char text[160];
+		std::snprintf(text, sizeof text, "blocks %d and %d overlap by %.3g m, %.0f %% of the height of the zones behind (%.3g m)", o.block[0], o.block[1], o.depth,
+			      100 * o.share(), o.height);
+		return text;
+	}
+
+	/// What half a step of the present forces adds to the kinetic energy, dt v.f / 2.
+	Real kineticChange(const BlockAssembly& a, Real time, Real dt)
+	{
+		Real power = 0;
+		for (int n = 0; n < a.nodeCount(); ++n)
+			for (int axis : { 0, 1 })
+				if (a.mobility[n][axis] > 0) power += a.velocity[n][axis] * a.force[n][axis];
+		for (const MotionGroup& g : a.groups) {
+			if (g.drive == MotionGroup::Drive::velocity) continue;
+			power += g.velocity * g.target * g.ramp(time);
+			for (int dof : g.dofs)
+				power += g.velocity * a.force[dof / 2][dof % 2];
+		}
+		for (const RigidBlock& r : a.rigid)
+			for (int i = 0; i < 3; ++i)
+				if (r.free[i]) power += r.velocity[i] * r.unbalanced[i];
+		return power * dt / 2;
+	}
 } // namespace
 
-StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, Real time)
+StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, Real time, Real dt)
 {
 	const int bad = a.firstBadNode();
 	if (bad >= 0) return { false, a.blockOfNode(bad), "the motion of a grid point is not a number" };
+
+	overlaps.look(a);
+	const char* const cure = "; joints must be stiffer or loads smaller";
+	if (overlaps.through[0] >= 0)
+		return { false, overlaps.through[0], "it has gone into block " + std::to_string(overlaps.through[1]) + " by more than half" + cure };
+	if (overlaps.inverted >= 0) return { false, overlaps.inverted, "a zone has turned inside out" };
 
 	Real turnover = 0;
 	for (const MotionGroup& g : a.groups)
 		turnover += g.workTurnover;
 	for (const RigidBlock& r : a.rigid)
 		turnover += r.workTurnover;
-	const Real loads = loadWork(a), energy = zoneEnergy(a) + jointEnergy(a) + kineticEnergy(a);
+	const Real loads = loadWork(a), swinging = zoneEnergy(a) + jointEnergy(a) + kineticEnergy(a), energy = swinging + kineticChange(a, time, dt);
 	if (!begun) {
 		roundingEnergy = 0;
 		for (int block = 0; block < a.blockCount(); ++block)
@@ -44,8 +77,9 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 	const Real excess = energy - groupWork(a) - rigidWork(a) - loads - baseline;
 	const Real scale  = std::abs(baseline) + turnover + std::abs(loads) + roundingEnergy;
 	const bool compare = step - compared >= leastInterval;
-	if (compare && excess > tolerance * scale && lastExcess > tolerance * scale && excess > growth * lastExcess) {
-		return { false, fastestBlock(a), "energy grew without work, to " + shown(energy) + " J where " + shown(energy - excess) + " J were put in" };
+	const bool grows   = compare && excess > tolerance * scale && lastExcess > tolerance * scale && excess > growth * lastExcess;
+	if (grows || swinging > swing * (std::max(energy, Real(0)) + scale)) {
+		return { false, fastestBlock(a), "energy grew without work, to " + shown(swinging) + " J where " + shown(energy - excess) + " J were put in" };
 	}
 	if (excess <= tolerance * scale) {
 		lastGood.step     = step;
@@ -58,7 +92,12 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 		if (!a.contacts.order.empty()) lastGood.contacts = a.contacts, lastGood.segments = a.segments;
 	}
 	if (compare) lastExcess = excess, compared = step;
-	return {};
+	Verdict good;
+	if (!warned && overlaps.thickest().share() > OverlapWatch::thin) {
+		warned       = true;
+		good.warning = described(overlaps.thickest()) + "; up to 10 % a joint may count as thin" + cure;
+	}
+	return good;
 }
 
 long StabilityWatch::restore(BlockAssembly& a) const

@@ -1,8 +1,9 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
 #include "BlockAssembly.hpp"
+#include "OverlapWatch.hpp"
 
-/// Notices a run that has turned unstable, and keeps the last state that had not.
+/// Notices a run that has turned unstable or blocks that go through each other, and keeps the last state that was good.
 namespace blocks {
 
 class StabilityWatch {
@@ -12,6 +13,10 @@ public:
 	static constexpr Real tolerance = 0.1;
 	/// Strain that is nothing but rounding (eps times specimen by zone is about 1e-14); its energy is no energy.
 	static constexpr Real roundingStrain = 1e-12;
+	/// ... with kinetic energy taken at the time of the forces, m v_before v_after / 2: only so is the sum constant where modes swing
+	/// near the limit of the time step. It also is where they grow beyond that limit; but m v_before^2 / 2 is at most this many
+	/// times the sum, 2/(1 - s^2), as long as they are stable, with s the largest fraction of the limit that is allowed.
+	static constexpr Real swing = 2 / (1 - 0.95 * 0.95);
 	/// ... and is an instability if it has grown by this factor since the last look: an unstable mode grows exponentially,
 	/// a velocity that a script has set does not.
 	static constexpr Real growth = 2;
@@ -21,12 +26,13 @@ public:
 
 	struct Verdict {
 		bool        stable = true;
-		int         block  = -1; ///< the one that moves fastest, or the first that is not a number
+		int         block  = -1; ///< the one that moves fastest, the first that is not a number, one of two that overlap
 		std::string reason;
+		std::string warning; ///< to be shown; empty if there is none, and after the first one
 	};
 
-	/// To be called every so many steps, with forces and positions of the same or neighbouring steps.
-	Verdict look(const BlockAssembly&, long step, Real time);
+	/// To be called every so many steps, between forces and motion.
+	Verdict look(const BlockAssembly&, long step, Real time, Real dt);
 
 	/// Puts the last good state back; the step it belongs to, or -1 if there was none.
 	long restore(BlockAssembly&) const;
@@ -45,7 +51,9 @@ private:
 		std::vector<Segment>      segments;
 	};
 	State lastGood;
+	OverlapWatch overlaps;
 	bool  begun      = false;
+	bool  warned     = false;
 	Real  baseline   = 0; ///< energy at the first look less the work done by then [J]
 	Real  lastExcess = 0;
 	long  compared   = 0; ///< step of lastExcess
