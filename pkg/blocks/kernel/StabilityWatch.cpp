@@ -43,7 +43,7 @@ namespace {
 		}
 		for (const RigidBlock& r : a.rigid)
 			for (int i = 0; i < 3; ++i)
-				if (r.free[i]) power += r.velocity[i] * r.unbalanced[i];
+				if (r.free[i]) power += r.velocity[i] * r.force[i];
 		return power * dt / 2;
 	}
 } // namespace
