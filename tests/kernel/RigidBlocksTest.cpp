@@ -338,12 +338,12 @@ TEST(RigidBlocks, AreHeldInTheLastGoodState)
 	StabilityWatch watch;
 	computeForces(a);
 	a.rigid[1].velocity = { 1, 2, 3 };
-	EXPECT_TRUE(watch.look(a, 7, 0.7).stable);
+	EXPECT_TRUE(watch.look(a, 7, 0.7, 0.1).stable);
 	const RigidBlock good = a.rigid[1];
 	moveRigid(a, 0.1);
 	a.rigid[1].velocity *= std::nan("");
 	a.velocity[a.firstNode[3]].x() = std::nan("");
-	const auto verdict             = watch.look(a, 8, 0.8);
+	const auto verdict             = watch.look(a, 8, 0.8, 0.1);
 	EXPECT_FALSE(verdict.stable);
 	EXPECT_EQ(verdict.block, 3);
 	EXPECT_EQ(watch.restore(a), 7);
