@@ -101,7 +101,7 @@ def pull(model, steps, progressLabel):
 		if p.jump:
 			model.elasticJump()
 			record()
-		O.engines += [PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
+		O.engines += [PyRunner(command='record()', iterPeriod=max(1, steps // 1600))]
 		O.run()
 		O.wait()
 	return np.array(history).T, cracks

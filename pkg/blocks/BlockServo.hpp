@@ -19,9 +19,9 @@ public:
 		((vector<string>, groups, , , "Names of the motion groups to slow."))
 		((Real, target, 1e-3, Attr::triggerPostLoad, "Unbalanced force ratio to keep [-]."))
 		((Real, floor, 0, Attr::triggerPostLoad, "Least sum of contact forces that counts in the ratio [N], or a start from zero load stalls: say 1e-3 x strength x section."))
-		((Real, least, 0.05, Attr::triggerPostLoad, "Least speed as a fraction of the groups' velocity, in (0, 1]."))
+		((Real, least, 0.05, Attr::triggerPostLoad, "Least speed as a fraction of the groups' velocity, in (0, 1] [-]."))
 		((int, period, 10, Attr::triggerPostLoad, "Steps between two looks."))
-		((Real, throttle, 1, Attr::readonly, "Present speed as a fraction of the groups' velocity."))
+		((Real, throttle, 1, Attr::readonly, "Present speed as a fraction of the groups' velocity [-]."))
 	);
 	// clang-format on
 

@@ -24,6 +24,7 @@ writable = {
         'BlockTimeStepper': dict(safety=0.5, quasiStatic=False, active=False, label='a'),
         'BlockForces': dict(dead=True, label='a'),
         'BlockIntegrator': dict(damping='none', alpha=0.7, viscosity=3., watchPeriod=7, rescueFile='x.xml', dead=True, label='a'),
+        'BlockServo': dict(groups=['a'], target=0.01, floor=3., least=0.5, period=7, dead=True, label='a'),
         'BlockCrackRecorder': dict(fileName='x.txt', iterPeriod=3, label='a'),
         'Bo1_Block_Aabb': dict(label='a'),
         'BlockContacts': dict(dead=True, label='a'),
@@ -34,6 +35,7 @@ readonly = {
         'BlockGeom': 'model pair contact ends points positions normals areas openings slips',
         'JointPhys': 'model pair contact sigma tau status',
         'BlockTimeStepper': 'stableStep',
+        'BlockServo': 'throttle',
         'BlockContacts': 'colliderRuns',
         'BlockCrackRecorder': 'points modes times positions events',
 }
@@ -84,7 +86,7 @@ def test_attributes(name):
 		cls(bogus=1)
 
 
-@pytest.mark.parametrize('name', ['BlockMat', 'JointMat', 'BlockTimeStepper', 'BlockIntegrator', 'BlockCrackRecorder'])
+@pytest.mark.parametrize('name', ['BlockMat', 'JointMat', 'BlockTimeStepper', 'BlockIntegrator', 'BlockServo', 'BlockCrackRecorder'])
 @pytest.mark.parametrize('duplicate', [copy.deepcopy, lambda x: pickle.loads(pickle.dumps(x))], ids=['deepcopy', 'pickle'])
 def test_duplicates(name, duplicate):
 	twin = duplicate(getattr(yade, name)(**writable[name]))
