@@ -1,7 +1,7 @@
 # yade-blocks, GPL-2.0-or-later
 """What every optional feature costs a step, switched off and on. To be started by scripts/price.sh:
 
-	scripts/price.sh [quick=false]        about 8 minutes on two idle cores; quick=false: longer windows, more repetitions
+	scripts/price.sh [quick=false]        about 8 minutes on two idle cores, and a build the first time; quick=false: longer windows, more repetitions
 
 Three states are measured: a couplet in tension whose first joints are broken (TT2 of tension.py, bonded joints only), a masonry
 prism in compression before its first crack (compression.py, half as wide) and the same prism crushed, with general contact. From

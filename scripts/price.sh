@@ -1,6 +1,7 @@
 #!/bin/bash
 # What every optional feature costs: scripts/price.sh [quick=false] [key=value ...], see scripts/price.py. Results are in out/price/.
-# Counts instructions with valgrind, which is installed if it is missing.
+# Counts instructions with valgrind, which is installed if it is missing, in a second build that knows its source lines (build/price,
+# the same machine code; some minutes the first time).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh
@@ -14,6 +15,8 @@ fi
 
 folder=out/price
 mkdir -p build/price "$folder"
+[ -f build/price/build.ninja ] || cmake -S . -B build/price -G Ninja -DBUILD_TESTING=OFF -DCMAKE_CXX_FLAGS=-g1
+cmake --build build/price -j "$(nproc)" --target yadeblocks
 rm -f "$folder"/*.callgrind* "$folder"/*.json
 cc -shared -fPIC -O1 -x c - -o build/price/libmarks.so <<'EOF'
 #include <valgrind/callgrind.h>
@@ -21,7 +24,7 @@ void startCounting(void) { CALLGRIND_ZERO_STATS; CALLGRIND_START_INSTRUMENTATION
 void stopCounting(const char* name) { CALLGRIND_DUMP_STATS_AT(name); CALLGRIND_STOP_INSTRUMENTATION; }
 EOF
 
-export OMP_WAIT_POLICY=passive PYTHONPATH="$PWD/py${PYTHONPATH:+:$PYTHONPATH}"
+export YADEBLOCKS_PLUGIN="$PWD/build/price/libyadeblocks.so" OMP_WAIT_POLICY=passive PYTHONPATH="$PWD/py${PYTHONPATH:+:$PYTHONPATH}"
 yade="$(command -v yade)"
 interpreter="$(head -1 "$yade" | sed 's/^#! *//')"
 

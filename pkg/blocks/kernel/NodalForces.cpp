@@ -97,7 +97,7 @@ namespace {
 
 } // namespace
 
-void updateKinematics(BlockAssembly& a, int first, int last)
+__attribute__((target_clones("avx2", "default"))) void updateKinematics(BlockAssembly& a, int first, int last)
 {
 	for (int i = first; i < last; ++i)
 		updateKinematics(a.segments[i], a.position.data(), a.frames[i], &a.points[2 * i]);

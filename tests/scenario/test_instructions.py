@@ -1,0 +1,76 @@
+# yade-blocks, GPL-2.0-or-later
+"""What callgrind counted, read and sorted (scripts/price.py). Without callgrind: the profile is written by hand."""
+import importlib.util
+from pathlib import Path
+
+import pytest
+
+path = Path(__file__).resolve().parents[2] / 'py/yadeblocks/instructions.py' # without the plugin, which importing the package would load
+spec = importlib.util.spec_from_file_location('instructions', path)
+instructions = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(instructions)
+
+profile = """# callgrind format
+version: 1
+desc: Timerange: Basic block 0 - 10
+desc: Trigger: Client Request: {name}
+positions: line
+events: Ir
+summary: 1170
+
+ob=/lib/plugin.so
+fl=ROOT/law.hpp
+fn=advance(Joint)
+2 100
+fi=ROOT/Energy.hpp
+7 30
+fe=ROOT/law.hpp
+3 40
+cfi=ROOT/other.hpp
+cfn=sqrt
+calls=5 12
+3 1000
+
+fl=???
+fn=0x00000000000012ab
+0 1000
+
+totals: 1170
+"""
+
+
+@pytest.fixture
+def files(tmp_path):
+	(tmp_path / 'law.hpp').write_text('// the law\nsigma = kn * (un - dilation);\ntau = ks * us;\n')
+	text = profile.replace('ROOT', str(tmp_path))
+	(tmp_path / 'run.1').write_text(text.format(name='bare'))
+	(tmp_path / 'run.2').write_text(text.format(name='with energy').replace('\n7 30\n', '\n7 60\n'))
+	(tmp_path / 'run.3').write_text(text.replace('desc: Trigger: Client Request: {name}', 'desc: Trigger: Program termination'))
+	return tmp_path
+
+
+def test_ownCostOnly(files):
+	"""The inclusive cost of the call (1000) counts where it arises, not where the call stands; the sum is callgrind's own."""
+	bare = instructions.readProfiles(files / 'run')['bare']
+	assert bare.total == 1170
+	assert bare.byFunction() == {'advance(Joint)': 170, '0x00000000000012ab': 1000}
+	assert bare.places['advance(Joint)', str(files / 'Energy.hpp'), 7] == 30 # an inlined line belongs to its own file
+
+
+def test_namedProfilesOnly(files):
+	assert set(instructions.readProfiles(files / 'run')) == {'bare', 'with energy'}
+	assert instructions.readProfiles(files / 'run')['with energy'].total == 1200
+
+
+def test_featuresByFileAndLine(files):
+	bare, source = instructions.readProfiles(files / 'run')['bare'], instructions.sourceLines(files)
+	count = lambda **where: bare.inFeature(instructions.Feature(**where), source)
+	assert count(files=r'Energy\.') == 30
+	assert count(lines='dilation') == 100
+	assert count(files=r'Energy\.', lines='ks') == 70
+	assert count(lines='friction') == 0
+
+
+def test_otherFormatsAreRefused():
+	with pytest.raises(ValueError, match='positions: line'):
+		instructions.parseProfile(['positions: instr line\n'])
