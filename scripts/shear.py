@@ -32,7 +32,7 @@ velocity = 0.2e-3 # [m/s]
 pressSteps = 2000
 
 p = scenario.parameters(
-	{**scenario.commonParameters(size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, steps=40000, alpha=0.2), 'sigma': 0.5e6, 'stroke': 1e-3, 'approach': 0.25, 'jump': True, 'servo': False, 'brickZone': 8e-3,
+	{**scenario.commonParameters(size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, steps=24000, alpha=0.2), 'sigma': 0.5e6, 'stroke': 1e-3, 'approach': 0.15, 'jump': True, 'servo': False, 'brickZone': 8e-3,
 	 'merge': 0.1, 'halfRate': False, 'vtk': True},
 	{'sigma': scenario.notNegative, 'stroke': scenario.positive, 'approach': scenario.Rule(lambda f: 0 < f <= 1, 'must lie in (0, 1]'), 'brickZone': scenario.positive,
 	 'size': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer'),
@@ -98,7 +98,7 @@ def shear(seed, steps, label):
 		if p.jump:
 			model.elasticJump()
 			record()
-		O.engines += [PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
+		O.engines += [PyRunner(command='record()', iterPeriod=max(1, steps // 400))]
 		O.run()
 		O.wait()
 	return model, np.array(history).T, cracks
