@@ -31,9 +31,9 @@ from yadeblocks.results import Results
 # ---- specimens (SI), as in the scenarios of the same name
 
 experiments = { # bricks, width, brick height, mortar height, stroke; elastic moduli and densities of brick and mortar; radius, steps
-	'tension': dict(bricks=2, width=0.1, brick=0.05, mortar=0.015, stroke=0.03e-3, densities=(1900, 1250), radius=1.5e-3, coarser=2, steps=10000),
-	'shear': dict(bricks=2, width=0.2, brick=0.05, mortar=0.015, stroke=0.5e-3, densities=(1900, 3250), radius=2e-3, coarser=1.5, steps=20000),
-	'compression': dict(bricks=5, width=0.285, brick=0.05, mortar=0.01, stroke=3.6e-3, densities=(2000, 2000), radius=2.5e-3, coarser=1.5, steps=20000),
+	'tension': dict(bricks=2, width=0.1, brick=0.05, mortar=0.015, stroke=0.03e-3, densities=(1900, 1250), radius=1.5e-3, coarser=2, steps=20000),
+	'shear': dict(bricks=2, width=0.2, brick=0.05, mortar=0.015, stroke=0.5e-3, densities=(1900, 3250), radius=2e-3, coarser=1.5, steps=12000),
+	'compression': dict(bricks=5, width=0.285, brick=0.05, mortar=0.01, stroke=3.6e-3, densities=(2000, 2000), radius=2.5e-3, coarser=1.5, steps=10000),
 }
 models = ('jcfpm', 'jcfpmSmooth', 'cohfrict', 'cpm', 'lourenco')
 micro = { # what calibration moves; young: of the bond, poisson: tangential by normal stiffness, angles in degrees

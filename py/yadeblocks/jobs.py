@@ -8,6 +8,7 @@
 A result is kept under a hash of the settings, of the seed and of all code that the script uses: scripts, Python modules, plugin,
 YADE's version, and the kind of processor. If any of these has changed the run is done anew; nothing old can be taken for new.
 """
+import fcntl
 import json
 import os
 import platform
@@ -73,8 +74,13 @@ class Jobs:
 		if not jobs:
 			return
 		self.kept.mkdir(parents=True, exist_ok=True)
-		shutil.rmtree(self.work, ignore_errors=True) # leftovers of an interrupted run
-		self.work.mkdir()
+		with self._claimed():
+			shutil.rmtree(self.work, ignore_errors=True) # leftovers of an interrupted run
+			self.work.mkdir()
+			self._all(jobs)
+			shutil.rmtree(self.work)
+
+	def _all(self, jobs):
 		line = _ProgressLine(jobs, self.parallel, self.stream)
 		with ThreadPoolExecutor(self.parallel) as pool:
 			try:
@@ -88,6 +94,15 @@ class Jobs:
 				raise
 			finally:
 				line.close()
+
+	def _claimed(self):
+		"""The folder, for one process at a time: the file to close when it is done."""
+		claim = open(self.folder / ".lock", "w")
+		try:
+			fcntl.flock(claim, fcntl.LOCK_EX | fcntl.LOCK_NB)
+		except BlockingIOError:
+			raise RuntimeError(f"another benchmark is running in {self.folder}") from None
+		return claim
 
 	def _one(self, job, line):
 		if self.stopped:

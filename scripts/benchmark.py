@@ -1,0 +1,283 @@
+# yade-blocks, GPL-2.0-or-later
+"""Error against run time: our blocks and YADE's bonded spheres in tension, shear and compression.
+
+	scripts/benchmark.sh [mode=quick|full|calibrate] [experiment=tension|shear|compression] [key=value ...]
+
+What is run are the tables below: each point for several seeds, a process each. A result is kept under a hash of parameters and code
+(yadeblocks.jobs): an interrupted benchmark continues, and nothing old is taken for new. For each experiment out/benchmark/ gets
+NAME-MODE.png (error over CPU seconds, and its reading), NAME-MODE.md (table and reading), NAME-MODE.csv and NAME-MODE-runs.csv.
+
+	mode=quick      less than ten minutes on two idle cores
+	mode=full       every knob, finer packings: some hours
+	mode=calibrate  finds the micro-parameters of the spheres again and writes scripts/calibrated.json
+
+Errors are against the laboratory and against a slow run of the same specimen, whose own convergence is shown by one twice as fast.
+retry=true runs again what failed; jobs=1 keeps processes from slowing each other down, which shows in CPU times.
+"""
+import json
+import math
+import os
+import signal
+import sys
+import types
+from pathlib import Path
+
+house = Path(__file__).resolve().parents[1]
+package = types.ModuleType("yadeblocks") # its modules without the plugin, which importing the package would load
+package.__path__ = [str(house / "py" / "yadeblocks")]
+sys.modules["yadeblocks"] = package
+
+from typing import NamedTuple, Optional
+
+import pandas
+
+from yadeblocks import calibration, scenario, study, tradeoff, tradeoffpicture
+from yadeblocks.jobs import Job, Jobs
+
+# ---- parameters
+
+p = scenario.parameters(
+	{"mode": "quick", "experiment": "all", "seeds": 5, "jobs": os.cpu_count() or 1, "limit": 1800.0, "retry": False, "folder": "out/benchmark"},
+	{"mode": ("quick", "full", "calibrate"), "experiment": ("all", "tension", "shear", "compression"), "seeds": scenario.atLeastOne, "jobs": scenario.atLeastOne, "limit": scenario.positive},
+	scenario="benchmark")
+experiments = ("tension", "shear", "compression") if p.experiment == "all" else (p.experiment,)
+sigmas = (0.1e6, 0.5e6, 1e6) # [Pa], shear
+
+
+seeds = range(1, p.seeds + 1)
+modelsOf = { # of spheres; planes and MortarMat have nothing to offer to a prism whose bricks split
+	"tension": ("jcfpm", "jcfpmSmooth", "cohfrict", "cpm", "lourenco"), "shear": ("jcfpm", "jcfpmSmooth", "cohfrict", "cpm", "lourenco"),
+	"compression": ("jcfpm", "cohfrict", "cpm")}
+
+# ---- the study: for each experiment lines of (knob, what changes the specimen, what changes only the way it is computed)
+
+default = {"tension": {"alpha": 0.3}, "shear": {"alpha": 0.3}, "compression": {"alpha": 0.2}} # damping as in the scenarios
+slow = { # steps of the reference; half of them show how far it is converged
+	"quick": {"tension": 80000, "shear": 80000, "compression": 40000}, "full": {"tension": 320000, "shear": 320000, "compression": 240000}}
+slowSpheres = {"quick": {"tension": 40000, "shear": 24000, "compression": 20000}, "full": {"tension": 160000, "shear": 96000, "compression": 80000}}
+
+def steps(*numbers): return [("steps", {}, {"steps": n}) for n in numbers]
+def alphas(n, *values): return [("alpha", {}, {"steps": n, "alpha": alpha}) for alpha in values]
+def dampings(n, *kinds): return [("damping", {}, {"steps": n, "damping": kind}) for kind in kinds]
+def sizes(n, *values): return [("size", {"size": size}, {"steps": n}) for size in values]
+def prism(n, *values): return [("size", {"unitSize": unit, "mortarSize": mortar}, {"steps": n}) for unit, mortar in values]
+def planes(n): return [("plane", {"plane": "stress"}, {"steps": n})]
+
+blocks = {
+	"quick": {
+		"tension": steps(2500, 5000, 10000, 20000) + alphas(10000, 0.8) + sizes(20000, 6e-3),
+		"shear 0.1": steps(20000), "shear 0.5": steps(5000, 10000, 20000) + alphas(10000, 0.8), "shear 1.0": steps(20000),
+		"compression": steps(5000, 10000) + alphas(10000, 0.6)},
+	"full": {
+		"tension": steps(2500, 5000, 10000, 20000, 40000, 80000) + alphas(10000, 0.1, 0.5, 0.8) + alphas(40000, 0.1, 0.5, 0.8) + dampings(10000, "adaptive", "none")
+			+ dampings(40000, "adaptive", "none") + sizes(40000, 1.5e-3, 3e-3, 4e-3, 6e-3) + planes(40000),
+		**{case: steps(5000, 10000, 20000, 40000, 80000) + alphas(10000, 0.1, 0.5, 0.8) + alphas(40000, 0.1, 0.5, 0.8) + dampings(40000, "adaptive", "none")
+			+ sizes(40000, 2.5e-3, 5e-3) + planes(40000) for case in ("shear 0.1", "shear 0.5", "shear 1.0")},
+		"compression": steps(5000, 10000, 20000, 30000, 60000) + alphas(10000, 0.1, 0.4, 0.8) + alphas(30000, 0.1, 0.4, 0.8) + dampings(30000, "adaptive", "none")
+			+ prism(30000, (15e-3, 4.5e-3), (7e-3, 3e-3)) + planes(30000)}}
+spheres = { # multiples of the default steps, and of the default radius
+	"quick": {"steps": (0.5,), "radius": (1,), "stresses": ("0.5",), "slow": False},
+	"full": {"steps": (0.25, 0.5, 1, 2), "radius": (1, 0.7), "stresses": ("0.1", "0.5", "1.0"), "slow": True}}
+radius = {"tension": 1.5e-3, "shear": 2e-3, "compression": 2.5e-3} # of the mortar, as in spheres.py
+sphereSteps = {"tension": 20000, "shear": 12000, "compression": 10000} # as in spheres.py
+
+
+class Point(NamedTuple):
+	"""A line of the study for one case, and the slow run it is compared with."""
+	case: str # tension, "shear 0.5", ...
+	model: str
+	knob: str
+	label: str
+	script: str
+	settings: dict
+	slow: Optional[dict] # settings of the reference, None without
+	isReference: bool = False
+
+
+def points(mode, experiment):
+	"""All points of an experiment: blocks, their references (slow, and half as slow), spheres."""
+	known = json.loads((house / "scripts" / "calibrated.json").read_text())
+	for case, lines in blocks[mode].items():
+		if case.split()[0] == experiment: yield from blockPoints(mode, case, lines)
+	for case in ([experiment] if experiment != "shear" else ["shear " + stress for stress in spheres[mode]["stresses"]]):
+		for model in modelsOf[experiment]:
+			if f"{model} {experiment}" in known: yield from spherePoints(mode, case, model, known)
+
+
+def blockPoints(mode, case, lines):
+	experiment, base = case.split()[0], {"vtk": False, **stressOf(case), **default[case.split()[0]]}
+	compared = mode == "full" or case in ("tension", "shear 0.5", "compression") # quick: one stress is enough for the slow runs
+	specimens = []
+	for knob, specimen, way in lines:
+		settings = {**base, **specimen, **way}
+		if way.get("damping", "local") != "local": del settings["alpha"]
+		slowest = {**base, **specimen, "steps": slow[mode][experiment]} if compared and (mode == "full" or not specimen) else None
+		yield Point(case, "blocks", knob, inWords(case, {**specimen, **way}), experiment, settings, slowest)
+		if slowest and specimen not in specimens: specimens.append(specimen)
+	for specimen in specimens:
+		for name, part in (("reference", 1), ("half as slow", 2)):
+			settings = {**base, **specimen, "steps": slow[mode][experiment] // part}
+			yield Point(case, "blocks", name, inWords(case, {**specimen, "steps": settings["steps"]}), experiment, settings, {**base, **specimen, "steps": slow[mode][experiment]}, part == 1)
+
+
+def spherePoints(mode, case, model, known):
+	experiment = case.split()[0]
+	base = {"experiment": experiment, "model": model, **stressOf(case)}
+	calibrated = known[f"{model} {experiment}"]["parameters"]
+	wanted = spheres[mode]
+	for factor in wanted["radius"]:
+		size = {"radius": round(factor * radius[experiment], 7)} if factor != 1 else {}
+		if size and model == "jcfpmSmooth": calibrated = {**calibrated, "jointStiffness": calibrated["jointStiffness"] / factor} # a bond's stiffness is E R, its area pi R^2
+		slowest = {**base, **calibrated, **size, "steps": slowSpheres[mode][experiment]} if wanted["slow"] else None
+		for part in wanted["steps"] if factor == 1 else (1,):
+			way = {"steps": int(part * sphereSteps[experiment])}
+			yield Point(case, model, "steps" if factor == 1 else "radius", inWords(case, {**size, **way}), "spheres", {**base, **calibrated, **size, **way}, slowest)
+		if slowest: yield Point(case, model, "reference", inWords(case, {**size, "steps": slowest["steps"]}), "spheres", slowest, slowest, True)
+	if case in ("shear 0.5", "compression") and (mode == "full" or model == "jcfpm") and f"{model} tension" in known: # what one set of parameters for all three gives
+		way = {"steps": int(sphereSteps[experiment] * wanted["steps"][0])}
+		foreign = {key: value for key, value in known[f"{model} tension"]["parameters"].items() if key != "unitStrength"}
+		if experiment == "compression": foreign["unitStrength"] = 10.7 # else bricks would never break
+		else: foreign["unitStrength"] = 1000
+		yield Point(case, model, "one set", "the parameters found in tension", "spheres", {**base, **foreign, **way}, None)
+
+
+def stressOf(case):
+	return {"sigma": float(case.split()[1]) * 1e6} if " " in case else {}
+
+
+def inWords(case, settings):
+	"""A setting in a few words: what it is in mm, thousands of steps, and so on."""
+	words = {"steps": lambda n: f"{n / 1000:g}k steps", "size": lambda x: f"{1e3 * x:g} mm", "unitSize": lambda x: f"{1e3 * x:g}", "mortarSize": lambda x: f"/ {1e3 * x:g} mm",
+		"radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}"}
+	return " ".join(words.get(key, lambda x: f"{key} {x}" if key != "damping" else f"{x} damping")(value) for key, value in settings.items())
+
+
+def truths(case):
+	return {name: value for name, (value, source) in study.expectations(case.split()[0], stressOf(case).get("sigma", 0)).items()}
+
+
+def report(jobs, experiment, all):
+	"""Table, CSV, plot and reading of what has been run."""
+	names = tradeoff.quantities[experiment]
+	get = lambda point, settings: {seed: jobs.result(Job(point.script, settings, seed)) for seed in seeds}
+	rows = [tradeoff.summarise(point.case, point.model, point.knob, point.label, names, get(point, point.settings), truths(point.case),
+		get(point, point.slow) if point.slow else {}, point.isReference) for point in all]
+	cases = {case: [row for row in rows if row.case == case] for case in dict.fromkeys(row.case for row in rows)}
+	texts = []
+	for case, mine in cases.items():
+		check = next((row.reference.get(names[0]) for row in mine if row.model == "blocks" and row.knob == "half as slow"), None)
+		texts.append((case, tradeoff.reading(case, mine, check, names)))
+	lines = [f"{case}: {line}" if len(cases) > 1 else line for case, lines in texts for line in lines]
+	place = jobs.folder / f"{experiment}-{p.mode}"
+	pandas.DataFrame(tradeoff.asRecords(rows)).to_csv(f"{place}.csv", index=False, float_format="%.6g")
+	pandas.DataFrame(runRecords(jobs, all)).to_csv(f"{place}-runs.csv", index=False, float_format="%.6g")
+	Path(f"{place}.md").write_text(f"# {experiment}, {p.mode} mode\n\n" + "\n".join("- " + line for line in lines) + "\n\n" + tradeoff.asMarkdown(rows, names) + "\n")
+	tradeoffpicture.drawTradeoff(f"{place}.png", cases, names, lines, title=f"{experiment}: error over CPU time, {p.seeds} seeds a point")
+	print(f"\n{experiment}\n" + "\n".join(lines) + f"\nsee {place}.png, .md, .csv", flush=True)
+
+
+def runRecords(jobs, all):
+	"""Every single run: what it measured and cost, or why it failed, and the command that repeats it."""
+	for point in all:
+		for seed in seeds:
+			result = jobs.result(Job(point.script, point.settings, seed))
+			if result: yield {"case": point.case, "model": point.model, "setting": point.label, "seed": seed, **result.get("measures", {}), "cpu_s": result.get("cost", {}).get("cpu_s"),
+				"steps": result.get("cost", {}).get("steps"), "unbalanced_ratio_max": result.get("quality", {}).get("unbalanced_ratio_max"), "failed": result.get("failed"), "command": result["command"]}
+
+
+# ---- calibration of the spheres: each model and experiment anew, since no set of parameters serves two experiments
+
+class Fit:
+	"""How a sphere model is calibrated for an experiment: where to start, which quantity is moved by which parameter, what follows from it."""
+
+	def __init__(self, start, targets, governs, seeds, tied):
+		self.start, self.targets, self.governs, self.seeds, self.tied = start, targets, governs, seeds, tied
+
+
+degrees = lambda tangent: math.degrees(math.atan(tangent))
+smoothPlanes = lambda q, experiment: {"jointStiffness": q["mortarYoung"] / (math.pi * radius[experiment])} # a bond's kn is E R, a plane's is stiffness times pi R^2
+
+
+def fits(model, experiment, known):
+	"""The Fit; `known` are the calibrations that are done already: shear takes its elastic parameters from tension, since no
+	laboratory stiffness is given."""
+	if experiment == "tension": # Tables 1 and 3: cohesion = tensile strength; bricks 31 times as stiff as the mortar layer
+		def tied(q):
+			q = {**q, "cohesion": q["tension"], "unitYoung": 31 * q["mortarYoung"], "poisson": 0.5, "unitStrength": 1000, "friction": 38, "residualFriction": 38, "ductility": 2}
+			return q if model != "jcfpmSmooth" else {**q, **smoothPlanes(q, experiment), "jointTension": q["tension"], "jointCohesion": q["cohesion"], "jointFriction": 38}
+		return Fit({"mortarYoung": 1.2e9, "tension": 1e6}, {"peak_tensile_stress": 0.35, "joint_stiffness": 36.07},
+			{"peak_tensile_stress": "tension", "joint_stiffness": "mortarYoung"}, (101, 102, 103), tied)
+	if experiment == "shear": # Table 5: tensile strength = half the cohesion; mortar stiffer by 1.53 (series of mortar and joints, 3.5 for 2 mm), bricks 21 times the mortar
+		young = 1.53 * known[f"{model} tension"]["parameters"]["mortarYoung"]
+		def tied(q):
+			elastic = {"mortarYoung": young, "unitYoung": 21 * young, "poisson": 0.5, "unitStrength": 1000, "ductility": 2, "tension": q["cohesion"] / 2, "cohesion": q["cohesion"]}
+			if model == "jcfpmSmooth": # a plane has one friction only: that of the residual; the layers in between are stronger than the planes
+				return {**elastic, **smoothPlanes(elastic, experiment), "jointCohesion": q["cohesion"], "jointTension": q["cohesion"] / 2, "cohesion": 3 * q["cohesion"],
+					"tension": 1.5 * q["cohesion"], "jointFriction": degrees(q["tangent"]), "friction": 45, "residualFriction": 36}
+			return {**elastic, "friction": degrees(q["tangent"]), "residualFriction": degrees(q["residualTangent"])}
+		start, targets = {"cohesion": 3e6, "tangent": 1.0}, {"intercept": 0.87, "slope": 1.01}
+		governs = {"intercept": "cohesion", "slope": "tangent"}
+		if model == "jcfpm": start, targets, governs = {**start, "residualTangent": 0.5}, {**targets, "residual": 0.365}, {**governs, "residual": "residualTangent"}
+		else: start = {**start, "residualTangent": 0.73}
+		if model == "jcfpmSmooth": start, targets, governs = {"cohesion": 1.5e6, "tangent": 0.73}, {"intercept": 0.95, "residual": 0.365}, {"intercept": "cohesion", "residual": "tangent"}
+		return Fit(start, targets, governs, (101,), tied)
+	def tied(q): # Tables 7 to 9: bricks 8 times as stiff as mortar with their joints, 10.7 times as strong; cohesion twice the tensile strength
+		q = {**q, "cohesion": 2 * q["tension"], "unitYoung": 8 * q["mortarYoung"], "poisson": 0.5, "unitStrength": 10.7, "friction": 17, "residualFriction": 0.1, "ductility": 2}
+		return q if model != "jcfpmSmooth" else {**q, **smoothPlanes(q, experiment), "jointTension": q["tension"], "jointCohesion": q["cohesion"], "jointFriction": 15}
+	return Fit({"mortarYoung": 2.3e9, "tension": 1.7e6}, {"compressive_strength": 27.5, "youngs_modulus": 4100},
+		{"compressive_strength": "tension", "youngs_modulus": "mortarYoung"}, (101, 102), tied)
+
+
+def evaluate(jobs, model, experiment, parameters, seeds):
+	"""Means over packings; in shear of the line through the three peaks, and the residual stress at 0.5 N/mm2."""
+	settings = {"experiment": experiment, "model": model, **parameters}
+	cases = [{**settings, "sigma": sigma} for sigma in sigmas] if experiment == "shear" else [settings]
+	asked = [[Job("spheres", case, seed) for seed in seeds] for case in cases]
+	jobs.do([job for case in asked for job in case])
+	found = [[jobs.result(job) for job in case] for case in asked]
+	for result in (result for case in found for result in case):
+		if "failed" in result: return dict.fromkeys(("intercept", "slope", "residual", "peak_tensile_stress", "joint_stiffness", "compressive_strength", "youngs_modulus"), math.nan)
+	means = [{name: sum(result["measures"][name] for result in case) / len(case) for name in case[0]["measures"]} for case in found]
+	if experiment != "shear": return means[0]
+	peaks = [mean["peak_shear_stress"] for mean in means]
+	x = [sigma / 1e6 for sigma in sigmas]
+	mx, my = sum(x) / 3, sum(peaks) / 3
+	slope = sum((a - mx) * (b - my) for a, b in zip(x, peaks)) / sum((a - mx)**2 for a in x)
+	return {"intercept": my - slope * mx, "slope": slope, "residual": means[1]["residual_shear_stress"]}
+
+
+def calibrateAll(jobs):
+	path = house / "scripts" / "calibrated.json"
+	known = json.loads(path.read_text())
+	for experiment in experiments:
+		for model in modelsOf[experiment]:
+			fit = fits(model, experiment, known)
+			found = calibration.calibrate(lambda q: evaluate(jobs, model, experiment, fit.tied(q), fit.seeds), fit.start, fit.targets, fit.governs, tolerance=0.02, rounds=4)
+			runs = found.rounds * len(fit.seeds) * (len(sigmas) if experiment == "shear" else 1)
+			known[f"{model} {experiment}"] = {
+				"parameters": {key: float(f"{value:.5g}") for key, value in fit.tied(found.parameters).items()}, "targets": fit.targets, "reached": {name: round(found.measured[name], 4) for name in fit.targets},
+				"rounds": found.rounds, "runs": runs, "packings": list(fit.seeds)}
+			path.write_text(json.dumps(known, indent=1) + "\n")
+			print(f"{model} {experiment}: {runs} runs, reached", known[f"{model} {experiment}"]["reached"], "for", fit.targets, flush=True)
+
+
+# ---- running
+
+def interrupt(*_): raise KeyboardInterrupt
+signal.signal(signal.SIGTERM, interrupt)
+signal.signal(signal.SIGINT, interrupt) # also where the shell has it ignored
+plugin = os.environ.get("YADEBLOCKS_PLUGIN", house / "build" / "libyadeblocks.so")
+jobs = Jobs(house, house / p.folder, plugin, pluginFree=("spheres",), limit=p.limit, parallel=p.jobs, retry=p.retry)
+everything = {} if p.mode == "calibrate" else {experiment: list(points(p.mode, experiment)) for experiment in experiments}
+stopped = False
+try:
+	if p.mode == "calibrate":
+		calibrateAll(jobs)
+		sys.exit()
+	jobs.do([Job(point.script, point.settings, seed) for seed in seeds for all in everything.values() for point in all]) # seed by seed, so that an early end leaves all points
+except KeyboardInterrupt:
+	print("interrupted: what is complete is kept; the same command continues", file=sys.stderr)
+	stopped = True
+for experiment, all in everything.items():
+	report(jobs, experiment, all)
+sys.exit(130 if stopped else 0)
