@@ -16,7 +16,7 @@ import numpy as np
 
 import yadeblocks
 from yade import *
-from yadeblocks import pictures, scenario
+from yadeblocks import loading, pictures, scenario
 from yadeblocks.export import BlocksExport
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.results import Results, engineCosts
@@ -29,11 +29,12 @@ brick = dict(young=16.7e9, poisson=0.2, density=1900) # Table 4
 mortar = dict(young=2.974e9, poisson=0.2, density=3250)
 joint = dict(kn=400e9, ks=200e9, frictionAngle=radians(45), frictionAngleResidual=radians(36), cohesion=3e6, tension=1.5e6) # Table 5, all joints
 velocity = 0.2e-3 # [m/s]
+pressSteps = 2000
 
 p = scenario.parameters(
-	{**scenario.commonParameters(size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, steps=40000), 'sigma': 0.5e6, 'stroke': 0.5e-3, 'pressSteps': 3000, 'brickZone': 8e-3,
+	{**scenario.commonParameters(size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, steps=40000, alpha=0.2), 'sigma': 0.5e6, 'stroke': 1e-3, 'approach': 0.25, 'jump': True, 'servo': False, 'brickZone': 8e-3,
 	 'merge': 0.1, 'halfRate': False, 'vtk': True},
-	{'sigma': scenario.notNegative, 'stroke': scenario.positive, 'pressSteps': scenario.atLeastOne, 'brickZone': scenario.positive,
+	{'sigma': scenario.notNegative, 'stroke': scenario.positive, 'approach': scenario.Rule(lambda f: 0 < f <= 1, 'must lie in (0, 1]'), 'brickZone': scenario.positive,
 	 'size': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer'),
 	 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')})
 area, low, high = length * thickness, brickHeight, brickHeight + mortarHeight
@@ -50,10 +51,10 @@ def build(seed, dt):
 	model.addRegion(rectangle(0, 0, length, low), 'unit', zoneSize=p.brickZone)
 	model.addRegion(rectangle(0, high, length, high + brickHeight), 'unit', zoneSize=p.brickZone)
 	model.bond()
-	top, press = nodesWhere(model, lambda x, y: y > high + brickHeight - 1e-9), p.pressSteps * dt
+	top = nodesWhere(model, lambda x, y: y > high + brickHeight - 1e-9)
 	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
-	model.push('press', top, 'y', force=-p.sigma * area, rampTime=0.7 * press)
-	model.drive('shear', top, 'x', velocity=velocity, startTime=press, rampTime=0.05 * p.stroke / velocity)
+	model.push('press', top, 'y', force=-p.sigma * area, rampTime=pressSteps * dt)
+	model.drive('shear', top, 'x', rampTime=pressSteps * dt) # held while the press comes down
 	model.insert()
 	return model
 
@@ -64,11 +65,15 @@ def shear(seed, steps, label):
 	model = build(seed, dt)
 	below, above = nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit')
 	slip, uplift = Gauge(model, below, above, 'x'), Gauge(model, below, above, 'y')
+	floor = 1e-3 * max(p.sigma, joint['tension']) * area
 	history = []
 
 	def record():
-		history.append((slip(), model.groupForce('shear') / area, uplift(), np.count_nonzero(model.pointStatus), model.unbalancedRatio(floor=1e-3 * max(p.sigma, joint['tension']) * area)))
-		progress(O.iter)
+		history.append((slip(), model.groupForce('shear') / area, uplift(), np.count_nonzero(model.pointStatus), model.unbalancedRatio(floor=floor)))
+		stress, broken = history[-1][1], history[-1][3]
+		if not p.servo: approach(stress, broken)
+		stop(model.groupTravelled('shear'), stress, broken)
+		progress(model.groupTravelled('shear') * steps / p.stroke)
 
 	O.dt = dt
 	O.engines = [
@@ -81,11 +86,18 @@ def shear(seed, steps, label):
 		                [Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
 		BlockTimeStepper(),                                        # scaled masses
 		BlockForces(),                                             # zones and joints, gathered node by node
-		BlockIntegrator(damping=p.damping, alpha=p.alpha),         # motion
-		PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
+		BlockIntegrator(damping=p.damping, alpha=p.alpha)]         # motion
+	if p.servo: O.engines = O.engines[:-1] + [BlockServo(groups=['shear'], floor=floor)] + O.engines[-1:] # as slow as the blocks want it
 	globals()['record'] = record
-	with Progress(p.pressSteps + steps, lambda: loadingLine(history[-1][0], history[-1][1], model), label=label) as progress:
-		O.run(p.pressSteps + steps, True)
+	with Progress(steps, lambda: loadingLine(history[-1][0], history[-1][1], model), label=label) as progress:
+		O.run(1, True)
+		if not p.jump: loading.settle(model, floor=floor)
+		model.setTarget('shear', velocity, rampTime=0 if p.jump else pressSteps * dt)
+		approach, stop = loading.Approach(model, 'shear', p.approach), loading.Stop(displacement=p.stroke)
+		if p.jump: model.elasticJump()
+		O.engines += [PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
+		O.run()
+		O.wait()
 	return model, np.array(history).T
 
 

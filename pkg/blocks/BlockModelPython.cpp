@@ -3,11 +3,13 @@
 #include "JointPhys.hpp"
 #include <blocks/kernel/ContactDetection.hpp>
 #include <blocks/kernel/ContactKinematics.hpp>
+#include <blocks/kernel/ElasticJump.hpp>
 #include <blocks/kernel/Energy.hpp>
 #include <blocks/kernel/NodalForces.hpp>
 #include <blocks/kernel/Tessellation.hpp>
 #include <blocks/kernel/Zoning.hpp>
 #include <boost/python/numpy.hpp>
+#include <core/Omega.hpp>
 
 /// What Python sees of a BlockModel: its building, its arrays, its boundary conditions.
 namespace yade {
@@ -174,10 +176,15 @@ namespace {
 		model.stiffnessChanged();
 	}
 
-	void setTarget(BlockModel& model, const string& name, Real target)
+	void setTarget(BlockModel& model, const string& name, Real target, Real rampTime)
 	{
 		blocks::require(std::isfinite(target), "motion group \"" + name + "\": target must be finite", target);
-		model.group(name).target = target;
+		blocks::require(rampTime >= 0 && std::isfinite(rampTime), "motion group \"" + name + "\": rampTime must not be negative [s]", rampTime);
+		MotionGroup& group = model.group(name);
+		group.target       = target;
+		if (rampTime == 0) return;
+		group.startTime = Omega::instance().getScene()->time;
+		group.rampTime  = rampTime;
 	}
 	void setThrottle(BlockModel& model, const string& name, Real throttle)
 	{
@@ -194,6 +201,15 @@ namespace {
 		for (const MotionGroup& g : model.assembly.groups)
 			names.append(g.name);
 		return names;
+	}
+
+	py::dict elasticJump(BlockModel& model, Real fraction)
+	{
+		const blocks::ElasticJump jump = blocks::elasticJump(model.assembly, fraction, Omega::instance().getScene()->time);
+		py::dict                  out;
+		out["time"]  = jump.time;
+		out["point"] = jump.point;
+		return out;
 	}
 
 	void gravity(BlockModel& model, const Vector2r& g) { blocks::addGravity(model.assembly, g); }
@@ -309,7 +325,7 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 	        .def("push", &push, (arg("name"), arg("nodes"), arg("axis"), arg("force"), arg("rampTime") = 0., arg("startTime") = 0.),
 	             "Moves grid points along one axis as one, as under a platen that stays parallel, by a total force [N].")
 	        .def("release", &release, (arg("name")), "Sets the grid points of a group free.")
-	        .def("setTarget", &setTarget, (arg("name"), arg("target")), "New velocity [m/s] or force [N] of a group.")
+	        .def("setTarget", &setTarget, (arg("name"), arg("target"), arg("rampTime") = 0.), "New velocity [m/s] or force [N] of a group; with a rampTime [s] it starts from zero now.")
 	        .def("setThrottle", &setThrottle, (arg("name"), arg("throttle")), "Factor in [0, 1] on the velocity of a group, for servos.")
 	        .def("groupForce", &force, (arg("name")), "Force that a group puts on the blocks along its axes, in the last step [N].")
 	        .def("groupVelocity", &velocity, (arg("name")), "Present velocity of a group [m/s].")
@@ -318,6 +334,10 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 	        .add_property("groups", &groupNames, "Names of the motion groups.")
 	        .def("gravity", &gravity, (arg("g")), "Adds gravity, a vector [m/s2], on the true masses.")
 	        .def("traction", &traction, (arg("edges"), arg("stress")), "Adds a traction vector [Pa] on boundary edges (indices into edgeNodes), as dead load.")
+	        .def("elasticJump", &elasticJump, (arg("fraction") = 0.97),
+	             "Leaps over the elastic part of the loading: solves for the answer to all loads, pushed groups at their full force and driven groups up to this fraction of the first failure, and goes on from there at full speed; no ramps, no settling. "
+	             "To be called after the first step, which brings the joints' properties (Mohr-Coulomb). Returns {'time': of loading at full speed that was leapt over [s], 'point': the contact point that will fail first}. "
+	             "Errors: RuntimeError where joints are broken or never were bonded, blocks are not held, nothing is driven, or the loads alone break a joint; nothing is changed then.")
 	        .def("unbalancedRatio", &unbalancedRatio, (arg("floor") = 0.),
 	             "Sum of unbalanced |force| over free degrees of freedom by twice the sum of contact |forces|, the latter at least floor [N]. YADE's utils.unbalancedForce() knows nothing of grid points.")
 	        .def("kineticEnergy", &kineticEnergy, "Kinetic energy, with the scaled masses if masses are scaled [J].")

@@ -1,0 +1,76 @@
+# yade-blocks, GPL-2.0-or-later
+"""Loading: rest before it, and when to end it. How it is applied: `BlockModel.drive`, `push`, `traction`, `gravity`,
+`elasticJump`, `setThrottle`, and the engine `BlockServo`.
+
+	loading.settle(model)                                    # dead loads and pushed platens, to equilibrium
+	stop = loading.Stop(drop=0.5, displacement=3e-3)
+	O.engines += [PyRunner(command="stop(model.groupTravelled('top'), stress(), broken())", iterPeriod=100)]
+"""
+import math
+
+
+def settle(model, ratio=1e-4, floor=0.0, period=100, maxSteps=1000000):
+	"""Runs until the unbalanced force ratio (`BlockModel.unbalancedRatio`) is below `ratio`; the paper's 0.01 % by default.
+
+	floor: least sum of contact forces that counts [N]; period: steps between two looks. Returns the number of steps.
+	Raises RuntimeError if maxSteps do not suffice: something moves that nothing holds, or is driven."""
+	if not ratio > 0: raise ValueError('settle: ratio must be positive, got %r' % ratio)
+	if not period >= 1: raise ValueError('settle: period must be at least 1, got %r' % period)
+	from yade.wrapper import Omega
+	O = Omega()
+	start = O.iter
+	while O.iter - start < maxSteps:
+		O.run(min(period, maxSteps - (O.iter - start)), True)
+		reached = model.unbalancedRatio(floor=floor)
+		if reached < ratio: return O.iter - start
+	raise RuntimeError('settle: the unbalanced force ratio is %.3g after %d steps, not below %g' % (reached, maxSteps, ratio))
+
+
+class Approach:
+	"""Slow up to the peak, where the rate counts, and fast after it: the speed of a driven group is `slow` x its velocity until the
+	stress has fallen below `drop` x its peak after something has broken, then grows by 1.1 from look to look up to the whole velocity.
+
+	>>> approach = Approach(model, 'top', slow=0.25)
+	>>> approach(stress, broken)     # every now and then"""
+
+	def __init__(self, model, group, slow, drop=0.7):
+		if not 0 < slow <= 1: raise ValueError('Approach: slow must lie in (0, 1], got %r' % slow)
+		if not 0 < drop < 1: raise ValueError('Approach: drop must lie in (0, 1), got %r' % drop)
+		self.model, self.group, self.speed, self.drop = model, group, slow, drop
+		self.peak, self.passed = -math.inf, False
+		model.setThrottle(group, slow)
+
+	def __call__(self, stress, broken):
+		"""Looks at the present stress [Pa] and number of broken contact points."""
+		self.peak = max(self.peak, stress)
+		self.passed = self.passed or bool(broken) and stress < self.drop * self.peak
+		if self.passed and self.speed < 1:
+			self.speed = min(1, 1.1 * self.speed)
+			self.model.setThrottle(self.group, self.speed)
+
+
+class Stop:
+	"""Pauses the run once it has shown what is wanted, by any of the conditions that are given:
+
+	drop: the stress has fallen below this fraction of its peak, after something has broken;
+	displacement: the displacement has reached this [m]; cracks: so many contact points are broken.
+	`reason` says which one it was ("drop", "displacement", "cracks"), "" while none holds."""
+
+	def __init__(self, drop=None, displacement=None, cracks=None):
+		if drop is None and displacement is None and cracks is None: raise ValueError('Stop: no condition is given')
+		if drop is not None and not 0 < drop < 1: raise ValueError('Stop: drop must lie in (0, 1), got %r' % drop)
+		if displacement is not None and not displacement > 0: raise ValueError('Stop: displacement must be positive, got %r' % displacement)
+		if cracks is not None and not cracks >= 1: raise ValueError('Stop: cracks must be at least 1, got %r' % cracks)
+		self.drop, self.displacement, self.cracks = drop, displacement, cracks
+		self.peak, self.reason = -math.inf, ''
+
+	def __call__(self, displacement, stress, broken):
+		"""Looks at the present state: displacement [m], stress [Pa], number of broken contact points."""
+		self.peak = max(self.peak, stress)
+		if self.drop is not None and broken and stress < self.drop * self.peak: self.reason = 'drop'
+		elif self.displacement is not None and abs(displacement) >= self.displacement: self.reason = 'displacement'
+		elif self.cracks is not None and broken >= self.cracks: self.reason = 'cracks'
+		else: return False
+		from yade.wrapper import Omega
+		Omega().pause()
+		return True
