@@ -24,7 +24,7 @@ import numpy as np
 import yadeblocks # for its Python side only: no block here
 from yade import *
 from yade import log, utils
-from yadeblocks import packing, scenario, study
+from yadeblocks import loading, packing, scenario, study
 from yadeblocks.progress import Progress
 from yadeblocks.results import Results
 
@@ -32,7 +32,7 @@ from yadeblocks.results import Results
 
 experiments = { # bricks, width, brick height, mortar height, stroke; elastic moduli and densities of brick and mortar; radius, steps
 	'tension': dict(bricks=2, width=0.1, brick=0.05, mortar=0.015, stroke=0.03e-3, densities=(1900, 1250), radius=1.5e-3, coarser=2, steps=20000),
-	'shear': dict(bricks=2, width=0.2, brick=0.05, mortar=0.015, stroke=0.5e-3, densities=(1900, 3250), radius=2e-3, coarser=1.5, steps=12000),
+	'shear': dict(bricks=2, width=0.2, brick=0.05, mortar=0.015, stroke=1e-3, densities=(1900, 3250), radius=2e-3, coarser=2, steps=8000),
 	'compression': dict(bricks=5, width=0.285, brick=0.05, mortar=0.01, stroke=3.6e-3, densities=(2000, 2000), radius=2.5e-3, coarser=1.5, steps=10000),
 }
 models = ('jcfpm', 'jcfpmSmooth', 'cohfrict', 'cpm', 'lourenco')
@@ -45,8 +45,8 @@ micro = { # what calibration moves; young: of the bond, poisson: tangential by n
 unknown = {key: 0.0 for key in micro}
 p = scenario.parameters(
 	{'seed': 1, 'seeds': 1, 'threads': 1, 'tag': '', 'experiment': 'tension', 'model': 'jcfpm', 'radius': 0.0, 'unitRadius': 0.0, 'steps': 0, 'alpha': 0.4, 'sigma': 0.5e6,
-	 'pressSteps': 3000, 'reach': 1.3, 'safety': 0.8, **unknown},
-	{'experiment': tuple(experiments), 'model': models, 'radius': scenario.notNegative, 'unitRadius': scenario.notNegative, 'steps': scenario.notNegative, 'sigma': scenario.notNegative, 'pressSteps': scenario.atLeastOne,
+	 'pressSteps': 2000, 'approach': 0.25, 'reach': 1.3, 'safety': 0.8, **unknown},
+	{'experiment': tuple(experiments), 'model': models, 'radius': scenario.notNegative, 'unitRadius': scenario.notNegative, 'steps': scenario.notNegative, 'sigma': scenario.notNegative, 'pressSteps': scenario.atLeastOne, 'approach': scenario.Rule(lambda f: 0 < f <= 1, 'must lie in (0, 1]'),
 	 'reach': scenario.Rule(lambda f: 1 <= f <= 2, 'must lie in [1, 2]'), 'safety': scenario.Rule(lambda f: 0 < f < 1, 'must lie in (0, 1)'),
 	 **{key: scenario.notNegative for key in micro}})
 specimen = experiments[p.experiment]
@@ -159,6 +159,10 @@ class Specimen:
 		reach = 2 * p.unitRadius
 		return displacement((y > high) & (y < high + reach)) - displacement((y < low) & (y > low - reach))
 
+	def setThrottle(self, group, factor):
+		"""Of the loading, for loading.Approach."""
+		self.throttle = factor
+
 	def force(self, axis):
 		"""On the top row by the specimen [N]."""
 		return sum(O.forces.f(i)[axis] for i in self.top)
@@ -191,11 +195,14 @@ def run(seed):
 	stepper.dead = False
 	newton.densityScaling = True # reaches it only while the stepper is in O.engines, and says so
 	history, start = [], O.iter
+	approach = loading.Approach(made, 'top', p.approach if press else 1)
+	travelled = lambda: abs(np.mean([O.bodies[i].state.displ()[axis] for i in made.top]))
 
 	def load():
 		step = O.iter - start
 		if press and step <= press: O.forces.setPermF(made.platen, (0, -p.sigma * area * min(1, step / (0.7 * press)), 0))
-		speed = velocity * min(1, max(0, step - press) / (0.05 * p.steps))
+		if step < press: speed = 0
+		else: speed = velocity * made.throttle * min(1, (step - press) / (0.05 * p.steps))
 		for i in [made.platen] if press else made.top:
 			now = O.bodies[i].state.vel
 			now[axis] = -speed if p.experiment == 'compression' else speed
@@ -206,14 +213,18 @@ def run(seed):
 		else: moved = made.movement(axis)
 		stress = made.force(axis) / area * (1 if p.experiment == 'compression' else -1)
 		history.append((moved, stress))
-		progress(O.iter)
-		if p.experiment != 'shear' and len(history) > 20 and stress < 0.5 * max(h[1] for h in history) and O.iter - start > 0.05 * p.steps: O.pause()
+		loaded = travelled() > 0.01 * specimen['stroke'] # what comes before is noise
+		approach(stress, loaded)
+		stop(travelled(), stress, loaded)
+		progress(travelled() / specimen['stroke'] * p.steps)
 
 	globals().update(load=load, record=record)
 	O.engines += [PyRunner(command='load()', iterPeriod=max(1, p.steps // 1000)), PyRunner(command='record()', iterPeriod=max(1, min(50, p.steps // 400)))]
 	load()
-	with Progress(start + press + p.steps, lambda: 'stress %.3f MPa' % (history[-1][1] / 1e6), label='seed %d' % seed) as progress:
-		O.run(press + p.steps, True)
+	stop = loading.Stop(drop=None if press else 0.5, displacement=specimen['stroke'])
+	with Progress(p.steps, lambda: 'stress %.3f MPa' % (history[-1][1] / 1e6), label='seed %d' % seed) as progress:
+		O.run()
+		O.wait()
 	return made, np.array(history).T
 
 

@@ -61,6 +61,11 @@ def test_modulusComesFromPermille():
 	assert values(study.measure("compression", strain, 4.1 * strain))["youngs_modulus"] == pytest.approx(4100)
 
 
+@pytest.mark.parametrize("x, y", [([2.0, 2.5, 3], [0.8, 0.9, 1]), ([0, 2, 2.5, 3], [0, 0.8, 0.9, 1]), ([1, 3, 3.5, 4], [0, 0.8, 0.9, 1])])
+def test_elasticJump(x, y):
+	assert values(study.measure("tension", x, y))["joint_stiffness"] == pytest.approx(0.4)
+
+
 def test_curveWithoutElasticPart():
 	assert math.isnan(values(study.measure("tension", [0, 1, 2], [1, 0.9, 0.8]))["joint_stiffness"])
 
