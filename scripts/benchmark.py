@@ -51,34 +51,38 @@ modelsOf = { # of spheres; planes and MortarMat have nothing to offer to a prism
 
 # ---- the study: for each experiment lines of (knob, what changes the specimen, what changes only the way it is computed)
 
-default = {"tension": {"alpha": 0.3}, "shear": {"alpha": 0.3}, "compression": {"alpha": 0.2}} # damping as in the scenarios
 slow = { # steps of the reference; half of them show how far it is converged
-	"quick": {"tension": 80000, "shear": 80000, "compression": 40000}, "full": {"tension": 320000, "shear": 320000, "compression": 240000}}
-slowSpheres = {"quick": {"tension": 40000, "shear": 24000, "compression": 20000}, "full": {"tension": 160000, "shear": 96000, "compression": 80000}}
+	"quick": {"tension": 80000, "shear": 40000, "compression": 30000}, "full": {"tension": 320000, "shear": 160000, "compression": 240000}}
+slowSpheres = {"tension": 160000, "shear": 64000, "compression": 80000} # full
 
 def steps(*numbers): return [("steps", {}, {"steps": n}) for n in numbers]
-def alphas(n, *values): return [("alpha", {}, {"steps": n, "alpha": alpha}) for alpha in values]
-def dampings(n, *kinds): return [("damping", {}, {"steps": n, "damping": kind}) for kind in kinds]
-def sizes(n, *values): return [("size", {"size": size}, {"steps": n}) for size in values]
-def prism(n, *values): return [("size", {"unitSize": unit, "mortarSize": mortar}, {"steps": n}) for unit, mortar in values]
-def planes(n): return [("plane", {"plane": "stress"}, {"steps": n})]
+def way(knob, n, *values, **more): return [(knob, {}, {"steps": n, knob: value, **more}) for value in values]
+def specimen(knob, n, *values): return [(knob, value if isinstance(value, dict) else {knob: value}, {"steps": n}) for value in values]
+def layers(unit, mortar): return {"unitSize": unit, "mortarSize": mortar}
 
-blocks = {
+blocks = { # a key that a scenario does not have (yet) is in the table as failed
 	"quick": {
-		"tension": steps(2500, 5000, 10000, 20000) + alphas(10000, 0.8) + sizes(20000, 6e-3),
-		"shear 0.1": steps(20000), "shear 0.5": steps(5000, 10000, 20000) + alphas(10000, 0.8), "shear 1.0": steps(20000),
-		"compression": steps(5000, 10000) + alphas(10000, 0.6)},
+		"tension": steps(2500, 5000, 10000, 20000) + way("alpha", 10000, 0.8) + way("jump", 10000, False) + way("servo", 10000, True) + specimen("size", 10000, 6e-3),
+		"shear 0.1": steps(10000),
+		"shear 0.5": steps(2500, 5000, 10000) + way("alpha", 5000, 0.8) + way("jump", 5000, False) + way("servo", 5000, True),
+		"shear 1.0": steps(10000),
+		"compression": steps(5000, 10000) + way("alpha", 5000, 0.6) + way("servo", 5000, True)},
 	"full": {
-		"tension": steps(2500, 5000, 10000, 20000, 40000, 80000) + alphas(10000, 0.1, 0.5, 0.8) + alphas(40000, 0.1, 0.5, 0.8) + dampings(10000, "adaptive", "none")
-			+ dampings(40000, "adaptive", "none") + sizes(40000, 1.5e-3, 3e-3, 4e-3, 6e-3) + planes(40000),
-		**{case: steps(5000, 10000, 20000, 40000, 80000) + alphas(10000, 0.1, 0.5, 0.8) + alphas(40000, 0.1, 0.5, 0.8) + dampings(40000, "adaptive", "none")
-			+ sizes(40000, 2.5e-3, 5e-3) + planes(40000) for case in ("shear 0.1", "shear 0.5", "shear 1.0")},
-		"compression": steps(5000, 10000, 20000, 30000, 60000) + alphas(10000, 0.1, 0.4, 0.8) + alphas(30000, 0.1, 0.4, 0.8) + dampings(30000, "adaptive", "none")
-			+ prism(30000, (15e-3, 4.5e-3), (7e-3, 3e-3)) + planes(30000)}}
-spheres = { # multiples of the default steps, and of the default radius
+		"tension": steps(1000, 2500, 5000, 10000, 20000, 40000, 80000) + way("alpha", 10000, 0.1, 0.5, 0.8) + way("alpha", 40000, 0.1, 0.5, 0.8)
+			+ way("damping", 10000, "adaptive", "none") + way("damping", 40000, "adaptive", "none") + way("jump", 5000, False) + way("jump", 20000, False)
+			+ way("servo", 2500, True) + way("servo", 10000, True) + way("servo", 10000, True, jump=False) + way("safety", 20000, 0.4, 0.9)
+			+ specimen("size", 40000, 1.5e-3, 3e-3, 4e-3, 6e-3) + specimen("plane", 40000, "stress") + specimen("units", 40000, "voronoi"),
+		**{case: steps(2500, 5000, 10000, 20000, 40000, 80000) + way("alpha", 10000, 0.1, 0.5, 0.8) + way("alpha", 40000, 0.1, 0.5, 0.8)
+			+ way("damping", 20000, "adaptive", "none") + way("jump", 10000, False) + way("servo", 5000, True) + way("servo", 20000, True) + way("servo", 20000, True, jump=False)
+			+ way("safety", 20000, 0.4, 0.9) + specimen("size", 20000, 2.5e-3, 5e-3) + specimen("plane", 20000, "stress") + specimen("units", 20000, "voronoi")
+			for case in ("shear 0.1", "shear 0.5", "shear 1.0")},
+		"compression": steps(2500, 5000, 10000, 20000, 30000, 60000) + way("alpha", 10000, 0.1, 0.4, 0.8) + way("alpha", 30000, 0.1, 0.4, 0.8)
+			+ way("damping", 30000, "adaptive", "none") + way("jump", 10000, False) + way("servo", 5000, True) + way("servo", 20000, True) + way("servo", 20000, True, jump=False)
+			+ way("safety", 20000, 0.4, 0.9) + specimen("size", 30000, layers(15e-3, 4.5e-3), layers(7e-3, 3e-3)) + specimen("plane", 30000, "stress")}}
+spheres = { # multiples of the default steps, and of the default radius; slow: with references of their own
 	"quick": {"steps": (0.5,), "radius": (1,), "stresses": ("0.5",), "slow": False},
 	"full": {"steps": (0.25, 0.5, 1, 2), "radius": (1, 0.7), "stresses": ("0.1", "0.5", "1.0"), "slow": True}}
-radius = {"tension": 1.5e-3, "shear": 2e-3, "compression": 2.5e-3} # of the mortar, as in spheres.py
+radius = {"tension": 1.5e-3, "shear": 2e-3, "compression": 2.5e-3} # of the spheres in the mortar [m], as in spheres.py
 sphereSteps = {"tension": 20000, "shear": 8000, "compression": 10000} # as in spheres.py
 
 
@@ -105,19 +109,18 @@ def points(mode, experiment):
 
 
 def blockPoints(mode, case, lines):
-	experiment, base = case.split()[0], {"vtk": False, **stressOf(case), **default[case.split()[0]]}
+	experiment, base = case.split()[0], {"vtk": False, **stressOf(case)}
 	compared = mode == "full" or case in ("tension", "shear 0.5", "compression") # quick: one stress is enough for the slow runs
 	specimens = []
 	for knob, specimen, way in lines:
 		settings = {**base, **specimen, **way}
-		if way.get("damping", "local") != "local": del settings["alpha"]
 		slowest = {**base, **specimen, "steps": slow[mode][experiment]} if compared and (mode == "full" or not specimen) else None
-		yield Point(case, "blocks", knob, inWords(case, {**specimen, **way}), experiment, settings, slowest)
+		yield Point(case, "blocks", knob, inWords({**way, **specimen}), experiment, settings, slowest)
 		if slowest and specimen not in specimens: specimens.append(specimen)
 	for specimen in specimens:
 		for name, part in (("reference", 1), ("half as slow", 2)):
 			settings = {**base, **specimen, "steps": slow[mode][experiment] // part}
-			yield Point(case, "blocks", name, inWords(case, {**specimen, "steps": settings["steps"]}), experiment, settings, {**base, **specimen, "steps": slow[mode][experiment]}, part == 1)
+			yield Point(case, "blocks", name, inWords({"steps": settings["steps"], **specimen}), experiment, settings, {**base, **specimen, "steps": slow[mode][experiment]}, part == 1)
 
 
 def spherePoints(mode, case, model, known):
@@ -128,11 +131,11 @@ def spherePoints(mode, case, model, known):
 	for factor in wanted["radius"]:
 		size = {"radius": round(factor * radius[experiment], 7)} if factor != 1 else {}
 		if size and model == "jcfpmSmooth": calibrated = {**calibrated, "jointStiffness": calibrated["jointStiffness"] / factor} # a bond's stiffness is E R, its area pi R^2
-		slowest = {**base, **calibrated, **size, "steps": slowSpheres[mode][experiment]} if wanted["slow"] else None
+		slowest = {**base, **calibrated, **size, "steps": slowSpheres[experiment]} if wanted["slow"] else None
 		for part in wanted["steps"] if factor == 1 else (1,):
 			way = {"steps": int(part * sphereSteps[experiment])}
-			yield Point(case, model, "steps" if factor == 1 else "radius", inWords(case, {**size, **way}), "spheres", {**base, **calibrated, **size, **way}, slowest)
-		if slowest: yield Point(case, model, "reference", inWords(case, {**size, "steps": slowest["steps"]}), "spheres", slowest, slowest, True)
+			yield Point(case, model, "steps" if factor == 1 else "radius", inWords({**way, **size}), "spheres", {**base, **calibrated, **size, **way}, slowest)
+		if slowest: yield Point(case, model, "reference", inWords({"steps": slowest["steps"], **size}), "spheres", slowest, slowest, True)
 	if case in ("shear 0.5", "compression") and (mode == "full" or model == "jcfpm") and f"{model} tension" in known: # what one set of parameters for all three gives
 		way = {"steps": int(sphereSteps[experiment] * wanted["steps"][0])}
 		foreign = {key: value for key, value in known[f"{model} tension"]["parameters"].items() if key != "unitStrength"}
@@ -145,11 +148,11 @@ def stressOf(case):
 	return {"sigma": float(case.split()[1]) * 1e6} if " " in case else {}
 
 
-def inWords(case, settings):
+def inWords(settings):
 	"""A setting in a few words: what it is in mm, thousands of steps, and so on."""
 	words = {"steps": lambda n: f"{n / 1000:g}k steps", "size": lambda x: f"{1e3 * x:g} mm", "unitSize": lambda x: f"{1e3 * x:g}", "mortarSize": lambda x: f"/ {1e3 * x:g} mm",
-		"radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}"}
-	return " ".join(words.get(key, lambda x: f"{key} {x}" if key != "damping" else f"{x} damping")(value) for key, value in settings.items())
+		"radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}", "damping": lambda x: f"{x} damping", "servo": lambda on: "servo" if on else "no servo", "jump": lambda on: "jump" if on else "no jump"}
+	return " ".join(words.get(key, lambda x: f"{key} {x}")(value) for key, value in settings.items())
 
 
 def truths(case):

@@ -21,6 +21,10 @@ shortNames = {
 }
 
 
+#: Knobs that change the specimen, not only the way it is computed: their points are no settings to choose for a wanted error.
+specimenKnobs = ("size", "plane", "units", "radius", "one set")
+
+
 class Error(NamedTuple):
 	"""Relative error over seeds: its mean, the sample standard deviation, the root of the mean square, and of how many seeds."""
 	mean: float
@@ -106,7 +110,7 @@ def reading(case, rows, check, names, limits=(0.05, 0.02, 0.01)):
 	"""Up to ten lines that say what the plot shows. check: how far the reference itself moves when its rate is doubled, an Error or
 	None; names: the quantities, the peak first."""
 	peak, lines = names[0], []
-	blocks = [row for row in rows if row.model == "blocks" and not row.isReference]
+	blocks = [row for row in rows if row.model == "blocks" and not row.isReference and row.knob not in specimenKnobs]
 	spheres = [row for row in rows if row.model != "blocks" and not row.isReference]
 	if check:
 		lines.append(f"Errors are rms over {check.seeds} seeds against each seed's own slow run; that one moves by {_signed(check.mean)} ± {_percent(check.scatter)} when loaded twice as fast.")
@@ -139,19 +143,15 @@ def reading(case, rows, check, names, limits=(0.05, 0.02, 0.01)):
 
 
 def _worstKnob(rows, peak):
-	"""Which knob moves the error of the peak most, between settings that differ in it alone."""
-	spans = {}
+	"""What each knob does to the error of the peak at the same number of steps (labels begin alike)."""
+	rms = lambda row: row.rms("reference", peak)
+	plain, said = [row for row in rows if row.knob == "steps" and not math.isnan(rms(row))], {}
 	for row in rows:
-		if not math.isnan(row.rms("reference", peak)):
-			spans.setdefault(row.knob, []).append(row)
-	spans = {knob: mine for knob, mine in spans.items() if len(mine) > 1}
-	if not spans:
-		return None
-	said = []
-	for knob, mine in sorted(spans.items(), key=lambda item: -max(row.rms("reference", peak) for row in item[1]))[:3]:
-		low, high = (pick(mine, key=lambda row: row.rms("reference", peak)) for pick in (min, max))
-		said.append(f"{knob} from {_percent(low.rms('reference', peak))} ({low.label}) to {_percent(high.rms('reference', peak))} ({high.label})")
-	return "What moves it: " + "; ".join(said) + "."
+		base = max((base for base in plain if row.label.startswith(base.label + " ")), key=lambda base: len(base.label), default=None)
+		if base and not math.isnan(rms(row)):
+			change = abs(math.log(max(rms(row), 1e-4) / max(rms(base), 1e-4)))
+			said[row.knob] = max(said.get(row.knob, (-1, "")), (change, f"{row.label} {_percent(rms(row))} ({row.cpu:.2g} s) instead of {_percent(rms(base))} ({base.cpu:.2g} s)"))
+	return "What moves it: " + "; ".join(text for change, text in sorted(said.values(), reverse=True)[:4]) + "." if said else None
 
 
 def _laboratory(row, names):
@@ -182,7 +182,7 @@ def asRecords(rows):
 def asMarkdown(rows, names):
 	"""The table: for each quantity the error against the laboratory and against the reference, mean ± scatter; * is on the Pareto front of
 	its model family (peak against reference)."""
-	front = {id(row) for family in (True, False) for row in _front([r for r in rows if (r.model == "blocks") == family and not r.isReference], names[0])}
+	front = {id(row) for family in (True, False) for row in _front([r for r in rows if (r.model == "blocks") == family and not r.isReference and r.knob not in specimenKnobs], names[0])}
 	head = ["case", "model", "setting", "seeds", "CPU s"] + [f"{shortNames[name]}, {kind}" for name in names for kind in ("laboratory", "reference")]
 	lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
 	for row in rows:

@@ -4,7 +4,7 @@ import math
 import textwrap
 from pathlib import Path
 
-from .tradeoff import pareto, shortNames
+from .tradeoff import pareto, shortNames, specimenKnobs
 
 # Okabe and Ito's colours, as in pictures.py; a marker for each, for grey prints
 _looks = {
@@ -32,7 +32,7 @@ def drawTradeoff(path, cases, names, lines, title=""):
 		for i, (case, rows) in enumerate(cases.items()):
 			for j, (kind, against) in enumerate((("reference", "its own slow run"), ("laboratory", "the laboratory"))):
 				axes = figure.add_subplot(grid[i, j])
-				_panel(axes, [row for row in rows if kind == "laboratory" or not row.isReference], kind, names)
+				_panel(axes, [row for row in rows if kind == "laboratory" or not (row.isReference or row.knob in specimenKnobs[:3])], kind, names)
 				axes.set_title(f"{case}: {shortNames[names[0]]} against {against}", loc="left", fontsize=8)
 				axes.set_ylabel("rms error [%]")
 				if i == len(cases) - 1: axes.set_xlabel("CPU time of a run [s]")
