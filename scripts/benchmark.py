@@ -37,7 +37,7 @@ from yadeblocks.jobs import Job, Jobs
 # ---- parameters
 
 p = scenario.parameters(
-	{"mode": "quick", "experiment": "all", "seeds": 5, "jobs": os.cpu_count() or 1, "limit": 1800.0, "retry": False, "folder": "out/benchmark"},
+	{"mode": "quick", "experiment": "all", "seeds": 5, "jobs": os.cpu_count() or 1, "limit": 1800.0, "retry": False, "out": "out/benchmark"},
 	{"mode": ("quick", "full", "calibrate"), "experiment": ("all", "tension", "shear", "compression"), "seeds": scenario.atLeastOne, "jobs": scenario.atLeastOne, "limit": scenario.positive},
 	scenario="benchmark")
 experiments = ("tension", "shear", "compression") if p.experiment == "all" else (p.experiment,)
@@ -270,7 +270,7 @@ def interrupt(*_): raise KeyboardInterrupt
 signal.signal(signal.SIGTERM, interrupt)
 signal.signal(signal.SIGINT, interrupt) # also where the shell has it ignored
 plugin = os.environ.get("YADEBLOCKS_PLUGIN", house / "build" / "libyadeblocks.so")
-jobs = Jobs(house, house / p.folder, plugin, pluginFree=("spheres",), limit=p.limit, parallel=p.jobs, retry=p.retry)
+jobs = Jobs(house, house / p.out, plugin, pluginFree=("spheres",), limit=p.limit, parallel=p.jobs, retry=p.retry)
 everything = {} if p.mode == "calibrate" else {experiment: list(points(p.mode, experiment)) for experiment in experiments}
 stopped = False
 try:
