@@ -17,10 +17,10 @@ import numpy as np
 
 import yadeblocks
 from yade import *
-from yadeblocks import pictures, scenario
+from yadeblocks import loading, pictures, scenario
 from yadeblocks.export import BlocksExport
 from yadeblocks.progress import Progress, loadingLine
-from yadeblocks.results import Results, engineCosts
+from yadeblocks.results import Cracks, Results, engineCosts
 from yadeblocks.specimen import nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -36,7 +36,7 @@ velocity = 0.01e-3 # [m/s]
 common = scenario.commonParameters(sizeMeaning='edge', lloyd=3, steps=30000, alpha=0.2)
 del common['size']
 p = scenario.parameters(
-	{**common, 'unitSize': 0.01, 'mortarSize': 0.003, 'residualFriction': 'zero', 'width': 0.285, 'stroke': 3.6e-3, 'merge': 0.1, 'halfRate': False, 'vtk': True},
+	{**common, 'unitSize': 0.01, 'mortarSize': 0.003, 'residualFriction': 'zero', 'width': 0.285, 'stroke': 3.6e-3, 'jump': True, 'servo': False, 'merge': 0.1, 'halfRate': False, 'vtk': True},
 	{'unitSize': scenario.Rule(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick'),
 	 'mortarSize': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than a mortar joint'),
 	 'residualFriction': ('zero', 'kept'), 'width': scenario.positive, 'stroke': scenario.positive,
@@ -66,19 +66,23 @@ def build(seed):
 
 
 def crush(seed, steps, label):
-	"""Presses until the stress has fallen to half the strength. The model and the columns: strain, stress [Pa], lateral strain of the middle brick, broken contact points, unbalanced ratio."""
+	"""Presses until the stress has fallen to half the strength. The model; the columns strain, stress [Pa],
+	lateral strain of the middle brick, broken contact points, unbalanced ratio; the cracks; their numbers at the peak."""
 	model = build(seed)
 	middle = lambda x, y: abs(y - height / 2) < brickHeight / 2
 	left, right = nodesWhere(model, lambda x, y: middle(x, y) & (x < 1e-9)), nodesWhere(model, lambda x, y: middle(x, y) & (x > p.width - 1e-9))
+	floor, cracks, atPeak = 1e-3 * mortarJoint['tension'] * area, Cracks(model), {}
+	stop = loading.Stop(drop=0.5, displacement=p.stroke)
 	history = []
 
 	def record():
 		stress = -model.groupForce('platen') / area
 		displacement = model.position[:, 0] - model.reference[:, 0]
 		history.append((-model.groupTravelled('platen') / height, stress, (displacement[right].mean() - displacement[left].mean()) / p.width,
-			np.count_nonzero(model.pointStatus), model.unbalancedRatio(floor=1e-3 * mortarJoint['tension'] * area)))
-		progress(O.iter)
-		if history[-1][3] and stress < 0.5 * max(h[1] for h in history): O.pause()
+			cracks.look(), model.unbalancedRatio(floor=floor)))
+		if stress > stop.peak: atPeak.update(cracks.counts())
+		progress(-model.groupTravelled('platen') * steps / p.stroke)
+		stop(-model.groupTravelled('platen'), stress, history[-1][3])
 
 	O.dt = p.stroke / velocity / steps
 	O.engines = [
@@ -92,12 +96,17 @@ def crush(seed, steps, label):
 		                [Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
 		BlockTimeStepper(),                                        # scaled masses
 		BlockForces(),                                             # zones and joints, gathered node by node
-		BlockIntegrator(damping=p.damping, alpha=p.alpha),         # motion
-		PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
+		BlockIntegrator(damping=p.damping, alpha=p.alpha)]         # motion
+	if p.servo: O.engines = O.engines[:-1] + [BlockServo(groups=['platen'], floor=floor)] + O.engines[-1:] # as slow as the blocks want it
 	globals()['record'] = record
-	with Progress(steps, lambda: loadingLine(model.groupTravelled('platen'), history[-1][1], model), label=label) as progress:
-		O.run(steps, True)
-	return model, np.array(history).T
+	with Progress(steps, lambda: loadingLine(history[-1][0] * height, history[-1][1], model), label=label) as progress:
+		O.run(1, True)
+		record()
+		if p.jump: model.elasticJump()
+		O.engines += [PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
+		O.run()
+		O.wait()
+	return model, np.array(history).T, cracks, atPeak
 
 
 # ---- running
@@ -107,15 +116,22 @@ O.timingEnabled = True
 for seed in p.seedList:
 	with results.run(seed) as run:
 		with run.stepping():
-			model, (strain, stress, lateral, broken, unbalanced) = crush(seed, p.steps, 'seed %d' % seed)
+			model, (strain, stress, lateral, broken, unbalanced), cracks, atPeak = crush(seed, p.steps, 'seed %d' % seed)
 		peak = stress.argmax()
 		elastic = (stress > 0.05 * stress[peak]) & (stress < 0.33 * stress[peak]) & (np.arange(len(stress)) < peak)
 		run.add('compressive_strength', 'MPa', stress[peak] / 1e6, 27.5, 'Oliveira 2003')
 		run.add('youngs_modulus', 'MPa', np.polyfit(strain[elastic], stress[elastic], 1)[0] / 1e6, 4100, 'Oliveira 2003')
 		run.add('strain_at_peak', '1', strain[peak])
 		run.add('lateral_strain_at_peak', '1', lateral[peak])
+		run.add('lateral_by_vertical_strain', '1', np.polyfit(strain[elastic], lateral[elastic], 1)[0])
 		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
+		run.add('first_crack_height', 'mm', cracks.first[0][1] * 1e3)
+		run.add('first_crack_in_mortar', '1', cracks.first[1] != 'unit-unit') # a mean over seeds is a share
 		run.add('cracks_at_peak', '1', broken[peak])
+		for pair, counts in atPeak.items():
+			run.add('cracks_at_peak_' + pair, '1', sum(counts.values()))
+		run.add('steep_share_unit-unit', '1', cracks.steepShare('unit-unit')) # a third if cracks ran every way alike
+		run.add('steep_share_mortar-mortar', '1', cracks.steepShare('mortar-mortar'))
 		run.curve(strain_permille=1e3 * strain, stress_MPa=stress / 1e6, lateral_permille=1e3 * lateral, broken=broken)
 		run.model(model, steps=O.iter, **engineCosts(model, O.iter))
 		run.quality(unbalanced_ratio_max=unbalanced[len(unbalanced) // 10:].max())

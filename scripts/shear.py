@@ -19,7 +19,7 @@ from yade import *
 from yadeblocks import loading, pictures, scenario
 from yadeblocks.export import BlocksExport
 from yadeblocks.progress import Progress, loadingLine
-from yadeblocks.results import Results, engineCosts
+from yadeblocks.results import Cracks, Results, engineCosts
 from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -60,16 +60,17 @@ def build(seed, dt):
 
 
 def shear(seed, steps, label):
-	"""Presses, then shears over the whole stroke. The model and the columns: displacement [m], stress [Pa], uplift [m], broken contact points, unbalanced ratio."""
+	"""Presses, then shears over the whole stroke. The model; the columns displacement [m], stress [Pa], uplift [m], broken
+	contact points, unbalanced ratio; the cracks."""
 	dt = p.stroke / velocity / steps
 	model = build(seed, dt)
 	below, above = nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit')
 	slip, uplift = Gauge(model, below, above, 'x'), Gauge(model, below, above, 'y')
 	floor = 1e-3 * max(p.sigma, joint['tension']) * area
-	history = []
+	cracks, history = Cracks(model), []
 
 	def record():
-		history.append((slip(), model.groupForce('shear') / area, uplift(), np.count_nonzero(model.pointStatus), model.unbalancedRatio(floor=floor)))
+		history.append((slip(), model.groupForce('shear') / area, uplift(), cracks.look(), model.unbalancedRatio(floor=floor)))
 		stress, broken = history[-1][1], history[-1][3]
 		if not p.servo: approach(stress, broken)
 		stop(model.groupTravelled('shear'), stress, broken)
@@ -98,7 +99,7 @@ def shear(seed, steps, label):
 		O.engines += [PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
 		O.run()
 		O.wait()
-	return model, np.array(history).T
+	return model, np.array(history).T, cracks
 
 
 # ---- running
@@ -108,12 +109,17 @@ O.timingEnabled = True
 for seed in p.seedList:
 	with results.run(seed) as run:
 		with run.stepping():
-			model, (displacement, stress, uplift, broken, unbalanced) = shear(seed, p.steps, 'seed %d' % seed)
+			model, (displacement, stress, uplift, broken, unbalanced), cracks = shear(seed, p.steps, 'seed %d' % seed)
 		peak = stress.argmax()
 		run.add('peak_shear_stress', 'MPa', stress[peak] / 1e6, peakExpected, 'Van der Pluijm 1993: 0.87 + 1.01 sigma')
 		run.add('residual_shear_stress', 'MPa', stress[displacement > 0.75 * displacement[-1]].mean() / 1e6, residualExpected or None, 'Van der Pluijm 1993: 0.73 sigma')
 		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
 		run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
+		run.add('first_crack_place', 'mm', cracks.first[0][0] * 1e3) # from the left end
+		run.add('cracks_at_peak', '1', broken[peak])
+		areas = {pair: sum(modes.values()) for pair, modes in cracks.crackedAreas().items()}
+		run.add('crack_share_unit-mortar', '1', areas['unit-mortar'] / sum(areas.values()))
+		run.add('uplift', 'mm', uplift[-1] * 1e3)
 		run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, uplift_mm=1e3 * uplift, broken=broken)
 		run.model(model, steps=O.iter, **engineCosts(model, O.iter))
 		run.quality(unbalanced_ratio_max=unbalanced[len(unbalanced) // 10:].max())

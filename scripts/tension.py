@@ -24,7 +24,7 @@ from yade import *
 from yadeblocks import pictures, scenario
 from yadeblocks.export import BlocksExport
 from yadeblocks.progress import Progress, loadingLine
-from yadeblocks.results import Results, crackAreas, engineCosts
+from yadeblocks.results import Cracks, Results, engineCosts
 from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -124,7 +124,7 @@ for seed in p.seedList:
 		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
 		run.add('joint_stiffness', 'N/mm3', np.polyfit(displacement[elastic], stress[elastic], 1)[0] / 1e9, seriesStiffness() / 1e9, 'series of mortar and joints')
 		run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
-		cracked = crackAreas(model)
+		cracked = Cracks(model).crackedAreas()
 		run.add('crack_share_unit-mortar', '1', sum(cracked['unit-mortar'].values()) / sum(sum(modes.values()) for modes in cracked.values()))
 		run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, broken=broken)
 		run.model(model, steps=O.iter, **engineCosts(model, O.iter))

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from .export import blockOutlines, contactLines, pairName
-from .results import crackCounts, modes
+from .results import Cracks, modes
 
 #: What a curve is compared with: y is a number (drawn as a line), a pair (a band) or, with x, a measured curve.
 Reference = namedtuple("Reference", "label y x", defaults=(None,))
@@ -140,7 +140,7 @@ def _drawCrackLines(axes, model, shown):
 	"""Draws the cracks; the legend's handles, all modes of a joint type one after the other."""
 	from matplotlib.collections import LineCollection
 	from matplotlib.lines import Line2D
-	counts = {pair: count for pair, count in crackCounts(model).items() if any(count.values())}
+	counts = {pair: count for pair, count in Cracks(model).counts().items() if any(count.values())}
 	colours = _assigned(counts, _jointColours, _spareColours)
 	pairs = np.array([pairName(model, *blocks) for blocks in model.segmentBlocks], dtype=object).repeat(2)
 	status = np.asarray(model.pointStatus)

@@ -145,9 +145,9 @@ def test_parametersUnderYade(tmp_path):
 
 def test_crackCountsByPairAndMode():
 	model = column()
-	assert results.crackCounts(model) == {"unit-mortar": {"tension": 1, "shear": 1}} # unit-platen was never bonded
+	assert results.Cracks(model).counts() == {"unit-mortar": {"tension": 1, "shear": 1}} # unit-platen was never bonded
 	model.pointStatus[:] = 0, 2, 2, 0
-	assert results.crackCounts(model) == {"platen-unit": {"tension": 0, "shear": 1}, "unit-mortar": {"tension": 0, "shear": 1}}
+	assert results.Cracks(model).counts() == {"platen-unit": {"tension": 0, "shear": 1}, "unit-mortar": {"tension": 0, "shear": 1}}
 
 
 def measured(p, peaks):

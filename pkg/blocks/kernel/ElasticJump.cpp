@@ -152,8 +152,8 @@ namespace {
 			scale = std::max(scale, f[0].norm());
 		const Real stiffest = factors.rows() > 0 ? factors.vectorD().maxCoeff() : 0;
 		const Real rounding = 1e3 * std::numeric_limits<Real>::epsilon() * stiffest * sizeOf(a);
-		if (unbalanced(a, unknowns).norm() > 1e-6 * scale + rounding)
-			throw std::runtime_error("no elastic jump: the answer is not linear; blocks have turned or strains are large");
+		if (unbalanced(a, unknowns).norm() > 1e-6 * scale + rounding) // a round less leaves 1e-12 of it at strains of 1e-4
+			throw std::runtime_error("no elastic jump: the answer is not linear (unbalanced " + shown(unbalanced(a, unknowns).norm()) + " N beside " + shown(scale) + " N); blocks have turned or strains are large");
 	}
 
 	/// Where sigma0 + lambda dsigma, tau0 + lambda dtau meets the strength; infinity if it does not.
