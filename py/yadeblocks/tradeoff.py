@@ -111,7 +111,7 @@ def reading(case, rows, check, names, limits=(0.05, 0.02, 0.01)):
 	None; names: the quantities, the peak first."""
 	peak, lines = names[0], []
 	blocks = [row for row in rows if row.model == "blocks" and not row.isReference and row.knob not in specimenKnobs]
-	spheres = [row for row in rows if row.model != "blocks" and not row.isReference]
+	spheres = [row for row in rows if row.model != "blocks"]
 	if check:
 		lines.append(f"Errors are rms over {check.seeds} seeds against each seed's own slow run; that one moves by {_signed(check.mean)} ± {_percent(check.scatter)} when loaded twice as fast.")
 	for limit in limits:
@@ -131,14 +131,22 @@ def reading(case, rows, check, names, limits=(0.05, 0.02, 0.01)):
 	if near or converged:
 		row = (converged or near)[0]
 		lines.append(f"Laboratory: {'the slow run' if converged else row.label} gives " + _laboratory(row, names) + ".")
-	for model in dict.fromkeys(row.model for row in spheres):
-		mine = [row for row in spheres if row.model == model and row.knob != "one set" and not row.failed and row.laboratory.get(peak)]
-		if mine and len(lines) < 10:
-			row = min(mine, key=lambda row: row.rms("laboratory", peak))
-			lines.append(f"{model}, calibrated for this: {row.cpu:.2g} CPU s, " + _laboratory(row, names) + " against the laboratory.")
+	best = {}
 	for row in spheres:
-		if row.knob == "one set" and row.laboratory.get(peak) and len(lines) < 10:
-			lines.append(f"{row.model} with {row.label}: " + _laboratory(row, names) + ".")
+		if row.knob not in ("one set", "radius") and not row.failed and row.laboratory.get(peak):
+			best[row.model] = min(best.get(row.model, row), row, key=lambda row: row.rms("laboratory", peak))
+	if best:
+		said = [f"{row.model} {_laboratory(row, names)} ({row.cpu:.2g} CPU s)" for row in sorted(best.values(), key=lambda row: row.rms("laboratory", peak))]
+		lines.append("Spheres against the laboratory, each model calibrated for this experiment: " + "; ".join(said) + ".")
+	foreign = [f"{row.model} {_laboratory(row, names)}" for row in spheres if row.knob == "one set" and row.laboratory.get(peak)]
+	if foreign:
+		lines.append("Spheres with the parameters found in tension: " + "; ".join(foreign) + ".")
+	rates = [f"{row.model} {row.label} {_percent(row.rms('reference', peak))} ({row.cpu:.2g} s)" for row in spheres if row.knob == "steps" and not math.isnan(row.rms("reference", peak))]
+	if rates:
+		lines.append("Spheres against their own slow runs: " + "; ".join(rates) + ".")
+	failed = [f"{row.model} {row.label}" for row in rows if row.failed and not row.seeds]
+	if failed:
+		lines.append("Failed, see the table: " + "; ".join(failed) + ".")
 	return lines[:10]
 
 

@@ -22,13 +22,13 @@ def drawTradeoff(path, cases, names, lines, title=""):
 	import matplotlib
 	from matplotlib.backends.backend_agg import FigureCanvasAgg
 	from matplotlib.figure import Figure
-	style = {"font.size": 8, "legend.fontsize": 7, "legend.frameon": False, "axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False}
-	text = [part for line in lines for part in textwrap.wrap(line, 118, subsequent_indent="    ")]
+	style = {"font.size": 8, "font.family": "DejaVu Sans", "legend.fontsize": 7, "legend.frameon": False, "axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False}
+	text = [part for line in lines for part in textwrap.wrap(line, 150, subsequent_indent="    ")]
 	with matplotlib.rc_context(style):
-		panels, words = 2.9 * len(cases), 0.155 * len(text) + 0.3
+		panels, words = 2.9 * len(cases) + 0.3, 0.135 * len(text) + 0.25
 		figure = Figure(figsize=(8.2, panels + words))
 		FigureCanvasAgg(figure)
-		grid = figure.add_gridspec(len(cases), 2, left=0.075, right=0.985, top=1 - 0.3 / (panels + words), bottom=(words + 0.55) / (panels + words), wspace=0.2, hspace=0.35)
+		grid = figure.add_gridspec(len(cases), 2, left=0.075, right=0.955, top=1 - 0.5 / (panels + words), bottom=(words + 0.55) / (panels + words), wspace=0.2, hspace=0.35)
 		for i, (case, rows) in enumerate(cases.items()):
 			for j, (kind, against) in enumerate((("reference", "its own slow run"), ("laboratory", "the laboratory"))):
 				axes = figure.add_subplot(grid[i, j])
@@ -36,8 +36,8 @@ def drawTradeoff(path, cases, names, lines, title=""):
 				axes.set_title(f"{case}: {shortNames[names[0]]} against {against}", loc="left", fontsize=8)
 				axes.set_ylabel("rms error [%]")
 				if i == len(cases) - 1: axes.set_xlabel("CPU time of a run [s]")
-				if i == j == 0: axes.legend(loc="best", handletextpad=0.2)
-		figure.text(0.02, (words - 0.05) / (panels + words), "\n".join(text), va="top", fontsize=7.5, linespacing=1.35)
+				if i == 0 and j == 1: axes.legend(loc="best", handletextpad=0.2)
+		figure.text(0.02, (words - 0.05) / (panels + words), "\n".join(text), va="top", fontsize=7, linespacing=1.35)
 		figure.suptitle(title, x=0.02, ha="left", fontsize=9, y=1 - 0.02 / (panels + words))
 		Path(path).parent.mkdir(parents=True, exist_ok=True)
 		figure.savefig(path, dpi=160)

@@ -276,7 +276,8 @@ def test_reading():
 	assert "5 % in the peak: 5k steps (0.5 CPU s, 4 %)" in text and "2 % in the peak: 20k steps (2 CPU s, 1.5 %)" in text
 	assert "1 % in the peak: none of the settings tried; the best is 20k steps" in text # the spheres' 1 % is not ours
 	assert "20k steps alpha 0.8 20 % (2 s) instead of 1.5 % (2 s)" in text and "9 mm" not in text # which is another specimen
-	assert "the slow run gives peak +10 %" in text and "jcfpm, calibrated for this: 20 CPU s, peak +10 %" in text
+	assert "the slow run gives peak +10 %" in text and "calibrated for this experiment: jcfpm peak +10 % ± 5 %, stiffness +5 % ± 0 % (20 CPU s)" in text
+	assert "Spheres against their own slow runs: jcfpm 20k steps 1 % (20 s)" in text
 
 
 def test_tables(tmp_path):
