@@ -114,7 +114,8 @@ def reading(case, rows, check, names, limits=(0.05, 0.02, 0.01)):
 	spheres = [row for row in rows if row.model != "blocks"]
 	if check:
 		lines.append(f"Errors are rms over {check.seeds} seeds against each seed's own slow run; that one moves by {_signed(check.mean)} ± {_percent(check.scatter)} when loaded twice as fast.")
-	for limit in limits:
+	compared = any(not math.isnan(row.rms("reference", peak)) for row in blocks)
+	for limit in limits if compared else ():
 		row = cheapest(blocks, limit, lambda row: row.rms("reference", peak))
 		if row:
 			every = cheapest(blocks, limit, lambda row: row.worst("reference"))
@@ -144,9 +145,9 @@ def reading(case, rows, check, names, limits=(0.05, 0.02, 0.01)):
 	rates = [f"{row.model} {row.label} {_percent(row.rms('reference', peak))} ({row.cpu:.2g} s)" for row in spheres if row.knob == "steps" and not math.isnan(row.rms("reference", peak))]
 	if rates:
 		lines.append("Spheres against their own slow runs: " + "; ".join(rates) + ".")
-	failed = [f"{row.model} {row.label}" for row in rows if row.failed and not row.seeds]
-	if failed:
-		lines.append("Failed, see the table: " + "; ".join(failed) + ".")
+	for words, rows in (("Not all seeds were run (yet)", [row for row in rows if row.failed.endswith("not run")]), ("Failed, see the table", [row for row in rows if row.failed and not row.failed.endswith("not run")])):
+		if rows:
+			lines.append(f"{words}: " + "; ".join(f"{row.model} {row.label}" for row in rows) + ".")
 	return lines[:10]
 
 

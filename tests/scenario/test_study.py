@@ -278,6 +278,12 @@ def test_reading():
 	assert "20k steps alpha 0.8 20 % (2 s) instead of 1.5 % (2 s)" in text and "9 mm" not in text # which is another specimen
 	assert "the slow run gives peak +10 %" in text and "calibrated for this experiment: jcfpm peak +10 % ± 5 %, stiffness +5 % ± 0 % (20 CPU s)" in text
 	assert "Spheres against their own slow runs: jcfpm 20k steps 1 % (20 s)" in text
+	assert "Failed, see the table: blocks lucky." in text and "Not all seeds" not in text
+
+
+def test_readingOfWhatIsNotThere():
+	lines = tradeoff.reading("tension", [rowOf("2k steps", 0.2, 0, isReference=True), rowOf("5k steps", math.nan, math.nan, failed="5 of 5 not run")._replace(reference={}, laboratory={})], None, tradeoff.quantities["tension"])
+	assert lines == ["Laboratory: the slow run gives peak +10 % ± 5 %, stiffness +5 % ± 0 %.", "Not all seeds were run (yet): blocks 5k steps."]
 
 
 def test_tables(tmp_path):
