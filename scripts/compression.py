@@ -102,7 +102,9 @@ def crush(seed, steps, label):
 	with Progress(steps, lambda: loadingLine(history[-1][0] * height, history[-1][1], model), label=label) as progress:
 		O.run(1, True)
 		record()
-		if p.jump: model.elasticJump()
+		if p.jump:
+			model.elasticJump()
+			record()
 		O.engines += [PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
 		O.run()
 		O.wait()

@@ -95,7 +95,9 @@ def shear(seed, steps, label):
 		if not p.jump: loading.settle(model, floor=floor)
 		model.setTarget('shear', velocity, rampTime=0 if p.jump else pressSteps * dt)
 		approach, stop = loading.Approach(model, 'shear', p.approach), loading.Stop(displacement=p.stroke)
-		if p.jump: model.elasticJump()
+		if p.jump:
+			model.elasticJump()
+			record()
 		O.engines += [PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
 		O.run()
 		O.wait()

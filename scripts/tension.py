@@ -21,7 +21,7 @@ import numpy as np
 
 import yadeblocks
 from yade import *
-from yadeblocks import pictures, scenario
+from yadeblocks import loading, pictures, scenario
 from yadeblocks.export import BlocksExport
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.results import Cracks, Results, engineCosts
@@ -43,7 +43,7 @@ cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [M
 stroke, velocity = 0.03e-3, 0.02e-3 # [m], [m/s]
 
 p = scenario.parameters(
-	{**scenario.commonParameters(size=0.0, sizeMeaning='sqrtArea', lloyd=1, steps=40000), 'case': 'TT2', 'brickZone': 8e-3, 'merge': 0.1, 'halfRate': False, 'vtk': True},
+	{**scenario.commonParameters(size=0.0, sizeMeaning='sqrtArea', lloyd=1, steps=40000), 'case': 'TT2', 'brickZone': 8e-3, 'merge': 0.1, 'jump': True, 'servo': False, 'halfRate': False, 'vtk': True},
 	{'case': tuple(cases), 'size': scenario.Rule(lambda s: 0 <= s < mortarHeight, 'must be positive and smaller than the mortar layer (0: of the case)'),
 	 'brickZone': scenario.positive, 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')})
 mortarJoint, unitJoint, caseSize, expectedPeak, source = cases[p.case]
@@ -72,13 +72,13 @@ def pull(model, steps, progressLabel):
 	"""Loads until the stress has fallen to half the peak. Columns: displacement [m], stress [Pa], broken contact points, unbalanced ratio."""
 	low, high = brickHeight, brickHeight + mortarHeight
 	gauge = Gauge(model, below=nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), above=nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit'))
-	history = []
+	floor, cracks, history = 1e-3 * unitJoint['tension'] * area, Cracks(model), []
+	stop = loading.Stop(drop=0.5, displacement=2 * stroke)
 
 	def record():
-		stress = model.groupForce('top') / area
-		history.append((gauge(), stress, np.count_nonzero(model.pointStatus), model.unbalancedRatio(floor=1e-3 * unitJoint['tension'] * area)))
+		history.append((gauge(), model.groupForce('top') / area, cracks.look(), model.unbalancedRatio(floor=floor)))
 		progress(O.iter)
-		if history[-1][2] and stress < 0.5 * max(h[1] for h in history): O.pause()
+		stop(model.groupTravelled('top'), history[-1][1], history[-1][2])
 
 	O.dt = duration / steps
 	O.engines = [
@@ -89,12 +89,19 @@ def pull(model, steps, progressLabel):
 		                [Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
 		BlockTimeStepper(),                                        # scaled masses
 		BlockForces(),                                             # zones and joints, gathered node by node
-		BlockIntegrator(damping=p.damping, alpha=p.alpha),         # motion
-		PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
+		BlockIntegrator(damping=p.damping, alpha=p.alpha)]         # motion
+	if p.servo: O.engines = O.engines[:-1] + [BlockServo(groups=['top'], floor=floor)] + O.engines[-1:] # as slow as the blocks want it
 	globals()['record'] = record
 	with Progress(steps, lambda: loadingLine(history[-1][0], history[-1][1], model), label=progressLabel) as progress:
-		O.run(steps, True)
-	return np.array(history).T
+		O.run(1, True)
+		record()
+		if p.jump:
+			model.elasticJump()
+			record()
+		O.engines += [PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
+		O.run()
+		O.wait()
+	return np.array(history).T, cracks
 
 
 def seriesStiffness():
@@ -114,17 +121,15 @@ for seed in p.seedList:
 		model = build(seed)
 		if seed == p.seed and p.vtk: export = BlocksExport(p.folder); export.write(model, O.time)
 		with run.stepping():
-			displacement, stress, broken, unbalanced = pull(model, p.steps, 'seed %d' % seed)
+			(displacement, stress, broken, unbalanced), cracks = pull(model, p.steps, 'seed %d' % seed)
 		peak = stress.argmax()
-		elastic = stress < 0.3 * stress.max()
-		elastic[peak:] = False
-		elastic[:len(stress) // 50] = False
+		elastic = (broken == 0) & ((stress > 0.1 * stress[peak]) | p.jump) # from where a smooth start is over
 
 		run.add('peak_tensile_stress', 'MPa', stress[peak] / 1e6, expectedPeak, source)
 		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
 		run.add('joint_stiffness', 'N/mm3', np.polyfit(displacement[elastic], stress[elastic], 1)[0] / 1e9, seriesStiffness() / 1e9, 'series of mortar and joints')
 		run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
-		cracked = Cracks(model).crackedAreas()
+		cracked = cracks.crackedAreas()
 		run.add('crack_share_unit-mortar', '1', sum(cracked['unit-mortar'].values()) / sum(sum(modes.values()) for modes in cracked.values()))
 		run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, broken=broken)
 		run.model(model, steps=O.iter, **engineCosts(model, O.iter))
@@ -133,7 +138,7 @@ for seed in p.seedList:
 		if p.vtk: export.write(model, O.time)
 		pictures.drawCracks(p.folder / 'cracks.png', model, title='Couplet in tension, %s, seed %d' % (p.case, seed))
 	if p.halfRate:
-		slow = pull(build(seed), 2 * p.steps, 'seed %d, half rate' % seed)[1].max()
+		slow = pull(build(seed), 2 * p.steps, 'seed %d, half rate' % seed)[0][1].max()
 		run.quality(half_rate_change=slow / stress[peak] - 1)
 
 results.write()

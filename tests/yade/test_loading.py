@@ -1,0 +1,134 @@
+# yade-blocks, GPL-2.0-or-later
+"""How loads are brought on and runs are ended: elastic jump, servo, settling, approach, stop criteria."""
+import pytest
+
+from scenes import *
+from yadeblocks import loading
+
+
+def top(m):
+	return nodesWhere(m, lambda x, y: y > m.reference[:, 1].max() - 1e-9)
+
+
+def test_jumpLeadsToTheFirstCrack():
+	"""Behind the jump nothing is broken and nothing moves of itself; at the next 3 % of the loading the foretold point breaks first."""
+	m = couplet(steps=20000)
+	speed = 0.012e-3 / 1.5
+	O.run(1, True)
+	jump = m.elasticJump(fraction=0.97)
+	assert m.groupTravelled('top') == pytest.approx(speed * jump['time'], rel=1e-9)
+	assert m.groupVelocity('top') == pytest.approx(speed)
+	jumped = O.time
+	O.run(1, True)
+	assert not m.pointStatus.any()
+	assert m.unbalancedRatio() < 1e-5 # of the strains, 1e-4, and of one step's damping
+	while not m.pointStatus.any():
+		O.run(20, True)
+	assert m.pointStatus[jump['point']]
+	assert O.time - jumped == pytest.approx(jump['time'] * 0.03 / 0.97, rel=0.02) # inertia at this rate
+
+
+def test_jumpKeepsTheEnergyAccount():
+	m = couplet(steps=20000, trackEnergy=True)
+	O.run(1, True)
+	m.elasticJump()
+	O.run(5000, True)
+	assert m.pointStatus.any()
+	energies = dict(O.energy.items())
+	assert abs(sum(energies.values())) < 2e-4 * abs(energies['blockWork']) # work of the jump: force by path, up to its strains
+
+
+def test_jumpIsRefused():
+	m = couplet()
+	with pytest.raises(RuntimeError, match='no properties yet'): m.elasticJump()
+	O.run(1, True)
+	with pytest.raises(ValueError, match=r'\(0, 1\).*1.5'): m.elasticJump(fraction=1.5)
+	m.setTarget('top', 0)
+	with pytest.raises(RuntimeError, match='driven'): m.elasticJump()
+
+
+def test_servoSlowsWhatIsTooFast():
+	"""The same specimen loaded twenty times too fast: with the servo, the peak is nearer to that of slow loading, and the ratio is near its target."""
+
+	def peak(steps, servo):
+		m, history = couplet(steps=steps, stroke=0.024e-3), []
+		if servo:
+			O.engines = O.engines[:-1] + [BlockServo(groups=['top'], floor=1e-3 * 0.6e6 * 0.04 * 0.05)] + O.engines[-1:]
+		stop = loading.Stop(drop=0.5)
+
+		def record():
+			history.append((m.groupForce('top'), O.engines[-3].throttle if servo else 1))
+			stop(0, history[-1][0], m.pointStatus.any())
+
+		__builtins__['record'] = record # where PyRunner finds it
+		O.engines += [PyRunner(command='record()', iterPeriod=5)]
+		O.run(100000, True)
+		forces, throttles = zip(*history)
+		return max(forces), min(throttles)
+
+	slow, fast = peak(20000, False)[0], peak(1000, False)[0]
+	served, least = peak(1000, True)
+	assert fast > 1.04 * slow
+	assert slow < served < slow + 0.3 * (fast - slow)
+	assert 0.05 <= least < 0.5
+
+
+@pytest.mark.parametrize('attribute, value, rule', [('target', 0, 'positive'), ('floor', -1, 'not be negative'), ('least', 0, '(0, 1]'), ('period', 0, 'at least 1')])
+def test_servoRefuses(attribute, value, rule):
+	servo = BlockServo(groups=['top'])
+	before = getattr(servo, attribute)
+	with pytest.raises(ValueError) as error: setattr(servo, attribute, value)
+	assert 'BlockServo.' + attribute in str(error.value) and rule in str(error.value)
+	assert getattr(servo, attribute) == before
+
+
+@pytest.mark.parametrize('groups, text', [([], 'groups must name'), (['lid'], 'no motion group "lid"'), (['press'], 'pushed by a force')])
+def test_servoNeedsDrivenGroups(groups, text):
+	m = couplet()
+	m.push('press', top(m), 'x', force=1)
+	O.engines = O.engines[:-1] + [BlockServo(groups=groups)] + O.engines[-1:]
+	with pytest.raises((RuntimeError, ValueError), match=text): O.run(1, True)
+
+
+def test_settleUntilNothingMoves():
+	"""Pressed by a platen: settled, the held edge carries its force to the ratio that was asked for."""
+	materials()
+	m = BlockModel(thickness=0.05)
+	m.addVoronoi(rectangle(0, 0, 0.04, 0.03), 'mortar', size=8e-3, seed=3)
+	m.bond()
+	m.drive('low', nodesWhere(m, lambda x, y: y < 1e-9), 'xy')
+	m.push('press', top(m), 'y', force=-500)
+	m.insert()
+	O.dt, O.engines = 1e-3, engines(strong(), alpha=0.5)
+	steps = loading.settle(m, ratio=1e-6)
+	assert 0 < steps == O.iter and m.unbalancedRatio() < 1e-6
+	low = nodesWhere(m, lambda x, y: y < 1e-9)
+	assert -m.force[low, 1].sum() == pytest.approx(500, rel=1e-4) # ratio 1e-6 of all contact forces, some fifty rows' worth
+	with pytest.raises(RuntimeError, match='after 7 steps'): loading.settle(m, ratio=1e-30, period=5, maxSteps=7)
+	with pytest.raises(ValueError, match='ratio'): loading.settle(m, ratio=0)
+
+
+def test_approachIsSlowUpToThePeak():
+	m = couplet()
+	approach = loading.Approach(m, 'top', slow=0.25)
+	for stress, broken in ((1, 0), (2, 0), (1, 0), (2, 1), (1.5, 1)): # elastic unloading is no failure
+		approach(stress, broken)
+		assert not approach.passed and approach.speed == 0.25
+	approach(1.3, 1)
+	assert approach.passed and approach.speed == pytest.approx(0.275)
+	for _ in range(20): approach(2, 1)
+	assert approach.speed == 1
+	with pytest.raises(ValueError, match=r'slow.*\(0, 1\].*2'): loading.Approach(m, 'top', slow=2)
+
+
+@pytest.mark.parametrize('condition, reason, step', [(dict(drop=0.5), 'drop', 5), (dict(displacement=3), 'displacement', 3), (dict(cracks=2), 'cracks', 4)])
+def test_stop(condition, reason, step):
+	stop = loading.Stop(**condition)
+	history = [(0, 0, 0), (1, 10, 0), (2, 4, 0), (3, 8, 1), (2.5, 6, 3), (2.6, 4, 3)] # displacement, stress, broken
+	stopped = [stop(*state) for state in history]
+	assert stopped.index(True) == step and stop.reason == reason
+
+
+@pytest.mark.parametrize('condition, text', [({}, 'no condition'), (dict(drop=1), 'drop'), (dict(displacement=0), 'displacement'), (dict(cracks=0), 'cracks')])
+def test_stopRefuses(condition, text):
+	with pytest.raises(ValueError, match=text): loading.Stop(**condition)
