@@ -31,7 +31,7 @@ from typing import NamedTuple, Optional
 
 import pandas
 
-from yadeblocks import calibration, scenario, study, tradeoff, tradeoffpicture
+from yadeblocks import calibration, curves, scenario, tradeoff, tradeoffpicture
 from yadeblocks.jobs import Job, Jobs
 
 # ---- parameters
@@ -156,7 +156,7 @@ def inWords(settings):
 
 
 def truths(case):
-	return {name: value for name, (value, source) in study.expectations(case.split()[0], stressOf(case).get("sigma", 0)).items()}
+	return {name: value for name, (value, source) in curves.expectations(case.split()[0], stressOf(case).get("sigma", 0)).items()}
 
 
 def report(jobs, experiment, all):

@@ -24,7 +24,7 @@ import numpy as np
 import yadeblocks # for its Python side only: no block here
 from yade import *
 from yade import log, utils
-from yadeblocks import loading, packing, scenario, study
+from yadeblocks import calibration, curves, loading, packing, scenario
 from yadeblocks.progress import Progress
 from yadeblocks.results import Results
 
@@ -52,7 +52,7 @@ p = scenario.parameters(
 specimen = experiments[p.experiment]
 p.radius, p.steps = p.radius or specimen['radius'], p.steps or specimen['steps']
 p.unitRadius = p.unitRadius or p.radius * (specimen['coarser'] if p.model != 'lourenco' else 1) # bricks that stay elastic need fewer spheres
-calibrated = study.calibratedParameters(Path(sys.argv[0]).parent / 'calibrated.json', p.model, p.experiment)
+calibrated = calibration.calibratedParameters(Path(sys.argv[0]).parent / 'calibrated.json', p.model, p.experiment)
 for key in micro: # 0: of the calibration
 	if not getattr(p, key): setattr(p, key, calibrated.get(key, 0.0))
 
@@ -249,8 +249,8 @@ for seed in p.seedList:
 		with result.stepping():
 			made, (displacement, stress) = run(seed)
 		x, y = displacement * 1e3, stress / 1e6
-		for name, (value, unit) in study.measure(p.experiment, x, y).items():
-			expected, source = study.expectations(p.experiment, p.sigma).get(name, (None, None))
+		for name, (value, unit) in curves.measure(p.experiment, x, y).items():
+			expected, source = curves.expectations(p.experiment, p.sigma).get(name, (None, None))
 			result.add(name, unit, value, expected, source)
 		intact = sum(1 for i in O.interactions if i.isReal)
 		result.curve(**{'strain_permille' if p.experiment == 'compression' else 'displacement_mm': x, 'stress_MPa': y})

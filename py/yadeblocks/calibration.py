@@ -5,7 +5,9 @@
 	                  governs={"joint_stiffness": "young", "peak": "tension"})
 	found.parameters, found.measured, found.rounds
 """
+import json
 import math
+from pathlib import Path
 from typing import NamedTuple
 
 
@@ -52,3 +54,8 @@ def _next(history, quantity, parameter, target):
 
 def _misfit(measured, targets):
 	return max(abs(math.log(measured[name] / target)) if measured[name] > 0 else math.inf for name, target in targets.items())
+
+
+def calibratedParameters(path, model, experiment):
+	"""Micro-parameters of a sphere model from scripts/calibrated.json; an empty dictionary if it was not calibrated for this."""
+	return json.loads(Path(path).read_text()).get(f"{model} {experiment}", {}).get("parameters", {})

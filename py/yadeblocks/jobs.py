@@ -3,13 +3,14 @@
 
 	jobs = Jobs(house, folder="out/benchmark", parallel=2)
 	jobs.do([Job("tension", {"steps": 20000}, seed) for seed in (1, 2, 3)])
-	jobs.result(Job("tension", {"steps": 20000}, 1))   # what it measured and cost, or why it failed; None if it was not run
+	jobs.result(Job("tension", {"steps": 20000}, 1))   # what it measured and cost, or why it failed; None if it has not been run
 
 A result is kept under a hash of the settings, of the seed and of all code that the script uses: scripts, Python modules, plugin,
 YADE's version, and the kind of processor. If any of these has changed the run is done anew; nothing old can be taken for new.
 """
 import fcntl
 import json
+import math
 import os
 import platform
 import shutil
@@ -23,7 +24,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
-from . import study
+from . import curves, study
 
 
 class Job(NamedTuple):
@@ -57,7 +58,14 @@ class Jobs:
 	def result(self, job):
 		"""What the job gave: {"job", "measures", "cost", "quality"} or {"job", "failed": reason}; None if it has not been run with this code."""
 		path = self.path(job)
-		return json.loads(path.read_text()) if path.exists() else None
+		if not path.exists():
+			return None
+		record = json.loads(path.read_text())
+		if "failed" in record:
+			return record
+		measures = {name: value for name, (value, unit) in curves.measure(job.settings.get("experiment", job.script), *record.pop("curve")).items()}
+		lacking = [name for name, value in measures.items() if math.isnan(value)]
+		return {**record, "failed": "the curve has no " + ", no ".join(lacking)} if lacking else {**record, "measures": measures}
 
 	def wanted(self, jobs):
 		"""Those that have to be run, each once, in the given order."""
@@ -107,6 +115,7 @@ class Jobs:
 	def _one(self, job, line):
 		if self.stopped:
 			return
+		self._unchanged(job)
 		start, key = time.monotonic(), self.path(job).stem
 		words = [f"{name}={study.plain(value)}" for name, value in job.settings.items()]
 		command = ["yade", "-n", "-x", "-j1", str(self.house / "scripts" / f"{job.script}.py"), *words, f"seed={job.seed}", f"tag={key}"]
@@ -123,6 +132,7 @@ class Jobs:
 			reason = self._wait(process)
 		if self.stopped:
 			return
+		self._unchanged(job)
 		record = {"job": {"script": job.script, "settings": job.settings, "seed": job.seed}, "command": " ".join(["scripts/run.sh", job.script, *words, f"seed={job.seed}"])}
 		try:
 			record.update(self._read(job, key) if not reason else {"failed": f"{reason}: {_lastLine(log)}"})
@@ -130,11 +140,16 @@ class Jobs:
 			record["failed"] = f"left no result ({type(error).__name__}): {_lastLine(log)}"
 		record["wall_s"] = time.monotonic() - start
 		part = self.kept / f"{key}.part"
-		part.write_text(json.dumps(record, indent=1) + "\n")
+		part.write_text(json.dumps(record) + "\n")
 		part.rename(self.path(job)) # complete or not there
 		shutil.rmtree(self.work / "out" / f"{job.script}-{key}", ignore_errors=True)
 		log.unlink()
 		line.done(job, record)
+
+	def _unchanged(self, job):
+		"""A result that was made while the code changed belongs to neither state of it."""
+		if self._code(job.script) != self.code(job.script):
+			raise RuntimeError(f"the code behind scripts/{job.script}.py has changed while it was running: start the benchmark again")
 
 	def _wait(self, process):
 		"""Why the process failed, or nothing."""
@@ -150,16 +165,14 @@ class Jobs:
 				self.running.discard(process)
 
 	def _read(self, job, key):
-		"""What the run left behind, with the curve read as everybody's (study.measure)."""
+		"""What the run left behind. The curve is kept, not what is read from it: that may be read again, in a better way."""
 		import pandas
 		folder = self.work / "out" / f"{job.script}-{key}"
 		result, curve = json.loads((folder / "result.json").read_text()), pandas.read_csv(folder / "curve.csv")
-		experiment = job.settings.get("experiment", job.script)
-		measures = {name: value for name, (value, unit) in study.measure(experiment, curve.iloc[:, 1], curve["stress_MPa"]).items()}
-		raw = {f"{quantity['name']}": quantity["measured"] for quantity in result["quantities"]}
-		if not all(value == value for value in measures.values()):
-			return {"failed": "the curve has no " + " and no ".join(name for name, value in measures.items() if value != value), "reported": raw}
-		return {"measures": measures, "reported": raw, "cost": result["cost"], "quality": result["quality"]}
+		return {
+		        "reported": {quantity["name"]: quantity["measured"] for quantity in result["quantities"]}, "cost": result["cost"],
+		        "quality": result["quality"], "curve": [curve.iloc[:, 1].tolist(), curve["stress_MPa"].tolist()]
+		}
 
 	def _code(self, script):
 		"""The hash of all that a run of this script depends on but its settings."""
