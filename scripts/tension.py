@@ -11,8 +11,11 @@ Two clay bricks, 100 x 50 x 50 mm, and a mortar joint of 15 mm made of Voronoi b
 	TT2b  Table 2 for all joints: the other way to make them equal, about 0.5 N/mm2
 	TT3   TT2 with blocks of 6 mm: 0.43 N/mm2
 
-Size means sqrt(mean area) unless sizeMeaning=edge. The stiffness across the layer should be that of the series
-1/K = h/E' + h/(0.92 kn s) + 1/kn, with s = sqrt(mean area) and E' = E/(1 - nu^2) in plane strain.
+Size means the mean edge, as in UDEC, unless sizeMeaning=sqrtArea. The stiffness across the layer should be that of the series
+1/K = h/E' + h/(0.92 kn s) + 1/kn, with s = sqrt(mean area) = 1.61 edges and E' = E/(1 - nu^2) in plane strain.
+
+Once the peak is passed the crack runs by itself, whatever the rate: inertia, which is that of scaled masses, limits its speed, and what
+oscillates behind it tears mortar joints beside its path. alpha=0.8 keeps that down (0.3 moves 8 % of TT1's cracks into the mortar).
 halfRate=true repeats every run at half the loading rate and reports the change of the peak.
 """
 from math import radians
@@ -43,7 +46,7 @@ cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [M
 stroke, velocity = 0.03e-3, 0.02e-3 # [m], [m/s]
 
 p = scenario.parameters(
-	{**scenario.commonParameters(size=0.0, sizeMeaning='sqrtArea', lloyd=1, steps=40000), 'case': 'TT2', 'brickZone': 8e-3, 'merge': 0.1, 'jump': True, 'servo': False, 'halfRate': False, 'vtk': True},
+	{**scenario.commonParameters(size=0.0, sizeMeaning='edge', lloyd=0, alpha=0.8, steps=40000), 'case': 'TT2', 'brickZone': 8e-3, 'merge': 0.1, 'jump': True, 'servo': False, 'halfRate': False, 'vtk': True},
 	{'case': tuple(cases), 'size': scenario.Rule(lambda s: 0 <= s < mortarHeight, 'must be positive and smaller than the mortar layer (0: of the case)'),
 	 'brickZone': scenario.positive, 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')})
 mortarJoint, unitJoint, caseSize, expectedPeak, source = cases[p.case]

@@ -50,7 +50,7 @@ class Approach:
 
 
 class Stop:
-	"""Pauses the run once it has shown what is wanted, by any of the conditions that are given:
+	"""Ends the run, after the present step, once it has shown what is wanted, by any of the conditions that are given:
 
 	drop: the stress has fallen below this fraction of its peak, after something has broken;
 	displacement: the displacement has reached this [m]; cracks: so many contact points are broken.
@@ -72,5 +72,5 @@ class Stop:
 		elif self.cracks is not None and broken >= self.cracks: self.reason = 'cracks'
 		else: return False
 		from yade.wrapper import Omega
-		Omega().pause()
+		Omega().stopAtIter = Omega().iter + 1 # a pause would let O.run(n, True) return within this step
 		return True

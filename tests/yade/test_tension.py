@@ -10,7 +10,7 @@ import pytest
 from scenes import *
 
 script = Path(differences.__code__.co_filename).parents[2] / 'scripts' / 'tension.py'
-quick = ['case=TT3', 'size=6e-3', 'steps=4000']
+quick = ['case=TT3', 'size=6e-3', 'sizeMeaning=sqrtArea', 'lloyd=1', 'alpha=0.3', 'steps=4000'] # small cells and little damping, for so few steps
 
 
 def tension(folder, *words, **options):
