@@ -62,16 +62,16 @@ def layers(unit, mortar): return {"unitSize": unit, "mortarSize": mortar}
 
 blocks = { # a key that a scenario does not have (yet) is in the table as failed
 	"quick": {
-		"tension": steps(2500, 5000, 10000, 20000) + way("alpha", 10000, 0.8) + way("jump", 10000, False) + way("servo", 10000, True) + specimen("size", 10000, 6e-3),
+		"tension": steps(2500, 5000, 10000, 20000) + way("alpha", 10000, 0.3) + way("jump", 10000, False) + way("servo", 10000, True) + specimen("size", 10000, 6e-3),
 		"shear 0.1": steps(10000),
 		"shear 0.5": steps(2500, 5000, 10000) + way("alpha", 5000, 0.8) + way("servo", 5000, True),
 		"shear 1.0": steps(10000),
 		"compression": steps(5000, 10000) + way("servo", 5000, True)},
 	"full": {
-		"tension": steps(1000, 2500, 5000, 10000, 20000, 40000, 80000) + way("alpha", 10000, 0.1, 0.5, 0.8) + way("alpha", 40000, 0.1, 0.5, 0.8)
+		"tension": steps(1000, 2500, 5000, 10000, 20000, 40000, 80000) + way("alpha", 10000, 0.1, 0.3, 0.5) + way("alpha", 40000, 0.1, 0.3, 0.5)
 			+ way("damping", 10000, "adaptive", "none") + way("damping", 40000, "adaptive", "none") + way("jump", 5000, False) + way("jump", 20000, False)
 			+ way("servo", 2500, True) + way("servo", 10000, True) + way("servo", 10000, True, jump=False) + way("safety", 20000, 0.4, 0.9)
-			+ specimen("size", 40000, 1.5e-3, 3e-3, 4e-3, 6e-3) + specimen("plane", 40000, "stress") + specimen("units", 40000, "voronoi"),
+			+ specimen("size", 40000, 1e-3, 1.5e-3, 3e-3, 6e-3) + specimen("plane", 40000, "stress") + specimen("units", 40000, "voronoi"),
 		**{case: steps(2500, 5000, 10000, 20000, 40000, 80000) + way("alpha", 10000, 0.1, 0.5, 0.8) + way("alpha", 40000, 0.1, 0.5, 0.8)
 			+ way("damping", 20000, "adaptive", "none") + way("jump", 10000, False) + way("servo", 5000, True) + way("servo", 20000, True) + way("servo", 20000, True, jump=False)
 			+ way("safety", 20000, 0.4, 0.9) + specimen("size", 20000, 2.5e-3, 5e-3) + specimen("plane", 20000, "stress") + specimen("units", 20000, "voronoi")
@@ -155,16 +155,21 @@ def inWords(settings):
 	return " ".join(words.get(key, lambda x: f"{key} {x}")(value) for key, value in settings.items())
 
 
-def truths(case):
-	return {name: value for name, (value, source) in curves.expectations(case.split()[0], stressOf(case).get("sigma", 0)).items()}
+def truths(case, results):
+	"""The laboratory's values; the stiffness in theory is that of the specimen as its scenario says."""
+	said = next((result["expected"] for result in results.values() if result and "expected" in result), {})
+	known = {name: value for name, (value, source) in curves.expectations(case.split()[0], stressOf(case).get("sigma", 0)).items()}
+	return {**known, **{name: said[name] for name in said if name == "joint_stiffness"}}
 
 
 def report(jobs, experiment, all):
 	"""Table, CSV, plot and reading of what has been run."""
 	names = tradeoff.quantities[experiment]
 	get = lambda point, settings: {seed: jobs.result(Job(point.script, settings, seed)) for seed in seeds}
-	rows = [tradeoff.summarise(point.case, point.model, point.knob, point.label, names, get(point, point.settings), truths(point.case),
-		get(point, point.slow) if point.slow else {}, point.isReference) for point in all]
+	rows = []
+	for point in all:
+		results = get(point, point.settings)
+		rows.append(tradeoff.summarise(point.case, point.model, point.knob, point.label, names, results, truths(point.case, results), get(point, point.slow) if point.slow else {}, point.isReference))
 	cases = {case: [row for row in rows if row.case == case] for case in dict.fromkeys(row.case for row in rows)}
 	texts = []
 	for case, mine in cases.items():
@@ -204,14 +209,14 @@ smoothPlanes = lambda q, experiment: {"jointStiffness": q["mortarYoung"] / (math
 def fits(model, experiment, known):
 	"""The Fit; `known` are the calibrations that are done already: shear takes its elastic parameters from tension, since no
 	laboratory stiffness is given."""
-	if experiment == "tension": # Tables 1 and 3: cohesion = tensile strength; bricks 31 times as stiff as the mortar layer
+	if experiment == "tension": # Tables 1 and 3: cohesion = tensile strength; bricks 22 times as stiff as the mortar layer with its joints
 		def tied(q):
-			q = {**q, "cohesion": q["tension"], "unitYoung": 31 * q["mortarYoung"], "poisson": 0.5, "unitStrength": 1000, "friction": 38, "residualFriction": 38, "ductility": 2}
+			q = {**q, "cohesion": q["tension"], "unitYoung": 22 * q["mortarYoung"], "poisson": 0.5, "unitStrength": 1000, "friction": 38, "residualFriction": 38, "ductility": 2}
 			return q if model != "jcfpmSmooth" else {**q, **smoothPlanes(q, experiment), "jointTension": q["tension"], "jointCohesion": q["cohesion"], "jointFriction": 38}
-		return Fit({"mortarYoung": 1.2e9, "tension": 1e6}, {"peak_tensile_stress": 0.35, "joint_stiffness": 36.07},
+		return Fit({"mortarYoung": 1.6e9, "tension": 1e6}, {name: value for name, (value, source) in curves.expectations("tension").items()},
 			{"peak_tensile_stress": "tension", "joint_stiffness": "mortarYoung"}, (101, 102, 103), tied)
-	if experiment == "shear": # Table 5: tensile strength = half the cohesion; mortar stiffer by 1.53 (series of mortar and joints, 3.5 for 2 mm), bricks 21 times the mortar
-		young = 1.53 * known[f"{model} tension"]["parameters"]["mortarYoung"]
+	if experiment == "shear": # Table 5: tensile strength = half the cohesion; mortar stiffer by 1.05 (series of mortar and joints, sides of 3.5 for 3.2 mm), bricks 21 times the mortar
+		young = 1.05 * known[f"{model} tension"]["parameters"]["mortarYoung"]
 		def tied(q):
 			elastic = {"mortarYoung": young, "unitYoung": 21 * young, "poisson": 0.5, "unitStrength": 1000, "ductility": 2, "tension": q["cohesion"] / 2, "cohesion": q["cohesion"]}
 			if model == "jcfpmSmooth": # a plane has one friction only: that of the residual; the layers in between are stronger than the planes

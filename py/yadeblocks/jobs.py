@@ -170,7 +170,8 @@ class Jobs:
 		folder = self.work / "out" / f"{job.script}-{key}"
 		result, curve = json.loads((folder / "result.json").read_text()), pandas.read_csv(folder / "curve.csv")
 		return {
-		        "reported": {quantity["name"]: quantity["measured"] for quantity in result["quantities"]}, "cost": result["cost"],
+		        "reported": {quantity["name"]: quantity["measured"] for quantity in result["quantities"]},
+		        "expected": {quantity["name"]: quantity["expected"] for quantity in result["quantities"] if quantity["expected"] is not None}, "cost": result["cost"],
 		        "quality": result["quality"], "curve": [curve.iloc[:, 1].tolist(), curve["stress_MPa"].tolist()]
 		}
 
