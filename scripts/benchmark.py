@@ -22,6 +22,8 @@ import sys
 import types
 from pathlib import Path
 
+if "yade" in sys.modules: sys.exit("benchmark is no scenario: start scripts/benchmark.sh, outside YADE")
+
 house = Path(__file__).resolve().parents[1]
 package = types.ModuleType("yadeblocks") # its modules without the plugin, which importing the package would load
 package.__path__ = [str(house / "py" / "yadeblocks")]
