@@ -169,11 +169,18 @@ def _laboratory(row, names):
 
 
 def _percent(fraction):
-	return "-" if fraction is None or math.isnan(fraction) else f"{100 * fraction:.2g} %"
+	return "-" if fraction is None or math.isnan(fraction) else _digits(100 * fraction) + " %"
 
 
 def _signed(fraction):
-	return f"{100 * fraction:+.2g} %"
+	return _digits(100 * fraction, "+") + " %"
+
+
+def _digits(number, sign=""):
+	"""Two digits, whole numbers from ten on, nothing below a hundredth."""
+	if abs(number) < 0.01:
+		return sign + "0"
+	return f"{number:{sign}.0f}" if abs(number) >= 9.95 else f"{number:{sign}.2g}"
 
 
 def asRecords(rows):
