@@ -291,5 +291,5 @@ except KeyboardInterrupt:
 	print("interrupted: what is complete is kept; the same command continues", file=sys.stderr)
 	stopped = True
 for experiment, all in everything.items():
-	report(jobs, experiment, all)
+	if all: report(jobs, experiment, all) # model= may leave nothing
 sys.exit(130 if stopped else 0)
