@@ -114,8 +114,12 @@ def reading(case, rows, check, names, limits=(0.05, 0.02, 0.01)):
 	spheres = [row for row in rows if row.model != "blocks"]
 	if check:
 		lines.append(f"Errors are rms over {check.seeds} seeds against each seed's own slow run; that one moves by {_signed(check.mean)} ± {_percent(check.scatter)} when loaded twice as fast.")
+	unknown = check.rms if check else 0.0
 	compared = any(not math.isnan(row.rms("reference", peak)) for row in blocks)
+	if compared and unknown > min(limits):
+		lines.append(f"Errors below {_percent(unknown)} cannot be judged: the reference is not known better; mode=full has a slower one.")
 	for limit in limits if compared else ():
+		if unknown > limit: continue
 		row = cheapest(blocks, limit, lambda row: row.rms("reference", peak))
 		if row:
 			every = cheapest(blocks, limit, lambda row: row.worst("reference"))

@@ -291,6 +291,11 @@ def test_reading():
 	assert "Failed, see the table: blocks lucky." in text and "Not all seeds" not in text
 
 
+def test_readingAgainstAReferenceThatMoves():
+	text = "\n".join(tradeoff.reading("tension", study4, tradeoff.Error(0.03, 0.01, 0.032, 5), tradeoff.quantities["tension"]))
+	assert "5 % in the peak: 5k steps" in text and "Errors below 3.2 % cannot be judged" in text and "2 % in the peak" not in text and "1 % in the peak" not in text
+
+
 def test_readingOfWhatIsNotThere():
 	lines = tradeoff.reading("tension", [rowOf("2k steps", 0.2, 0, isReference=True), rowOf("5k steps", math.nan, math.nan, failed="5 of 5 not run")._replace(reference={}, laboratory={})], None, tradeoff.quantities["tension"])
 	assert lines == ["Laboratory: the slow run gives peak +10 % ± 5 %, stiffness +5 % ± 0 %.", "Not all seeds were run (yet): blocks 5k steps."]
