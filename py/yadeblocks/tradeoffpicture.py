@@ -32,13 +32,13 @@ def drawTradeoff(path, cases, names, lines, title=""):
 		for i, (case, rows) in enumerate(cases.items()):
 			for j, (kind, against) in enumerate((("reference", "its own slow run"), ("laboratory", "the laboratory"))):
 				axes = figure.add_subplot(grid[i, j])
+				axes.set_ylabel("rms error [%]")
 				_panel(axes, [row for row in rows if kind == "laboratory" or not (row.isReference or row.knob in specimenKnobs[:3])], kind, names)
 				axes.set_title(f"{case}: {shortNames[names[0]]} against {against}", loc="left", fontsize=8)
-				axes.set_ylabel("rms error [%]")
 				if i == len(cases) - 1: axes.set_xlabel("CPU time of a run [s]")
 				if i == 0 and j == 1: axes.legend(loc="best", handletextpad=0.2)
 		figure.text(0.02, (words - 0.05) / (panels + words), "\n".join(text), va="top", fontsize=7, linespacing=1.35)
-		figure.suptitle(title, x=0.02, ha="left", fontsize=9, y=1 - 0.02 / (panels + words))
+		figure.suptitle(title, x=0.02, ha="left", fontsize=9, y=1 - 0.1 / (panels + words), va="top")
 		Path(path).parent.mkdir(parents=True, exist_ok=True)
 		figure.savefig(path, dpi=160)
 	return path
@@ -59,6 +59,10 @@ def _panel(axes, rows, kind, names):
 			axes.plot(x, y, marker, color=tone, markersize=5, markerfacecolor=tone if k in front else "white", markeredgewidth=0.9, zorder=3, linestyle="none")
 		for k in front:
 			axes.annotate(mine[k].label, points[k], xytext=(4, 4), textcoords="offset points", fontsize=5.5, color=colour)
+	if not any(shown.values()):
+		axes.set_axis_off()
+		axes.text(0, 0.8, "no slow runs in this mode", transform=axes.transAxes, fontsize=7, color="#888888")
+		return
 	for model in shown: # one entry each
 		if shown[model]: axes.plot([], [], _looks[model][1], color=_looks[model][0], markersize=5, linestyle="none", label=model)
 	axes.set(xscale="log", yscale="log")
