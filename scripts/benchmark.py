@@ -1,0 +1,298 @@
+# yade-blocks, GPL-2.0-or-later
+"""Error against run time: our blocks and YADE's bonded spheres in tension, shear and compression.
+
+	scripts/benchmark.sh [mode=quick|full|calibrate] [experiment=tension|shear|compression] [key=value ...]
+
+What is run are the tables below: each point for several seeds, a process each. A result is kept under a hash of parameters and code
+(yadeblocks.jobs): an interrupted benchmark continues, and nothing old is taken for new. For each experiment out/benchmark/ gets
+NAME-MODE.png (error over CPU seconds, and its reading), NAME-MODE.md (table and reading), NAME-MODE.csv and NAME-MODE-runs.csv.
+
+	mode=quick      less than ten minutes on two idle cores
+	mode=full       every knob, finer packings: some hours
+	mode=calibrate  finds the micro-parameters of the spheres (model=NAME: of this one only) again and writes scripts/calibrated.json
+
+Errors are against the laboratory and against a slow run of the same specimen, whose own convergence is shown by one twice as fast.
+retry=true runs again what failed; jobs=1 keeps processes from slowing each other down, which shows in CPU times.
+"""
+import json
+import math
+import os
+import signal
+import sys
+import types
+from pathlib import Path
+
+if "yade" in sys.modules: sys.exit("benchmark is no scenario: start scripts/benchmark.sh, outside YADE")
+
+house = Path(__file__).resolve().parents[1]
+package = types.ModuleType("yadeblocks") # its modules without the plugin, which importing the package would load
+package.__path__ = [str(house / "py" / "yadeblocks")]
+sys.modules["yadeblocks"] = package
+
+from typing import NamedTuple, Optional
+
+import pandas
+
+from yadeblocks import calibration, curves, scenario, tradeoff, tradeoffpicture
+from yadeblocks.jobs import Job, Jobs
+
+# ---- parameters
+
+modelsOf = { # of spheres; planes and MortarMat have nothing to offer to a prism whose bricks split
+	"tension": ("jcfpm", "jcfpmSmooth", "cohfrict", "cpm", "lourenco"), "shear": ("jcfpm", "jcfpmSmooth", "cohfrict", "cpm", "lourenco"),
+	"compression": ("jcfpm", "cohfrict", "cpm")}
+
+p = scenario.parameters(
+	{"mode": "quick", "experiment": "all", "seeds": 5, "jobs": os.cpu_count() or 1, "model": "all", "limit": 1800.0, "retry": False, "out": "out/benchmark"},
+	{"mode": ("quick", "full", "calibrate"), "experiment": ("all", "tension", "shear", "compression"), "model": ("all", "blocks", *modelsOf["shear"]), "seeds": scenario.atLeastOne, "jobs": scenario.atLeastOne, "limit": scenario.positive},
+	scenario="benchmark")
+experiments = ("tension", "shear", "compression") if p.experiment == "all" else (p.experiment,)
+sigmas = (0.1e6, 0.5e6, 1e6) # [Pa], shear
+
+
+# ---- the study: for each experiment lines of (knob, what changes the specimen, what changes only the way it is computed)
+
+slow = { # steps of the reference; half of them show how far it is converged
+	"quick": {"tension": 80000, "shear": 40000, "compression": 30000}, "full": {"tension": 320000, "shear": 160000, "compression": 240000}}
+slowSpheres = {"tension": 160000, "shear": 64000, "compression": 80000} # full
+
+def steps(*numbers): return [("steps", {}, {"steps": n}) for n in numbers]
+def way(knob, n, *values, **more): return [(knob, {}, {"steps": n, knob: value, **more}) for value in values]
+def specimen(knob, n, *values): return [(knob, value if isinstance(value, dict) else {knob: value}, {"steps": n}) for value in values]
+def layers(unit, mortar): return {"unitSize": unit, "mortarSize": mortar}
+
+blocks = { # a key that a scenario does not have (yet) is in the table as failed
+	"quick": {
+		"tension": steps(2500, 5000, 10000, 20000) + way("alpha", 10000, 0.3) + way("jump", 10000, False) + way("servo", 10000, True) + specimen("size", 10000, 6e-3),
+		"shear 0.1": steps(10000),
+		"shear 0.5": steps(2500, 5000, 10000) + way("alpha", 5000, 0.8) + way("servo", 2500, True),
+		"shear 1.0": steps(10000),
+		"compression": steps(5000, 10000)},
+	"full": {
+		"tension": steps(1000, 2500, 5000, 10000, 20000, 40000, 80000) + way("alpha", 10000, 0.1, 0.3, 0.5) + way("alpha", 40000, 0.1, 0.3, 0.5)
+			+ way("damping", 10000, "adaptive", "none") + way("damping", 40000, "adaptive", "none") + way("jump", 5000, False) + way("jump", 20000, False)
+			+ way("servo", 2500, True) + way("servo", 10000, True) + way("servo", 10000, True, jump=False) + way("safety", 20000, 0.4, 0.9)
+			+ specimen("size", 40000, 1e-3, 1.5e-3, 3e-3, 6e-3) + specimen("plane", 40000, "stress") + specimen("units", 40000, "voronoi"),
+		**{case: steps(2500, 5000, 10000, 20000, 40000, 80000) + way("alpha", 10000, 0.1, 0.5, 0.8) + way("alpha", 40000, 0.1, 0.5, 0.8)
+			+ way("damping", 20000, "adaptive", "none") + way("jump", 10000, False) + way("servo", 5000, True) + way("servo", 20000, True) + way("servo", 20000, True, jump=False)
+			+ way("safety", 20000, 0.4, 0.9) + specimen("size", 20000, 2.5e-3, 5e-3) + specimen("plane", 20000, "stress") + specimen("units", 20000, "voronoi")
+			for case in ("shear 0.1", "shear 0.5", "shear 1.0")},
+		"compression": steps(2500, 5000, 10000, 20000, 30000, 60000) + way("alpha", 10000, 0.1, 0.4, 0.8) + way("alpha", 30000, 0.1, 0.4, 0.8)
+			+ way("damping", 30000, "adaptive", "none") + way("jump", 10000, False) + way("servo", 5000, True) + way("servo", 20000, True) + way("servo", 20000, True, jump=False)
+			+ way("safety", 20000, 0.4, 0.9) + specimen("size", 30000, layers(15e-3, 4.5e-3), layers(7e-3, 3e-3)) + specimen("plane", 30000, "stress")}}
+spheres = { # multiples of the steps and radius they were calibrated with; slow: with references of their own; packings: at most so many
+	"quick": {"steps": (1,), "radius": (1,), "stresses": ("0.5",), "slow": False, "packings": 3},
+	"full": {"steps": (0.25, 0.5, 1, 2), "radius": (1, 0.7), "stresses": ("0.1", "0.5", "1.0"), "slow": True, "packings": 1000}}
+radius = {"tension": 1.5e-3, "shear": 2e-3, "compression": 2.5e-3} # of the spheres in the mortar [m], as in spheres.py
+sphereSteps = {"tension": 20000, "shear": 8000, "compression": 10000} # as in spheres.py
+
+
+class Point(NamedTuple):
+	"""A line of the study for one case, and the slow run it is compared with."""
+	case: str # tension, "shear 0.5", ...
+	model: str
+	knob: str
+	label: str
+	script: str
+	settings: dict
+	slow: Optional[dict] # settings of the reference, None without
+	isReference: bool = False
+
+	@property
+	def seeds(self):
+		return range(1, 1 + (p.seeds if self.model == "blocks" else min(p.seeds, spheres[p.mode]["packings"])))
+
+
+def points(mode, experiment):
+	"""All points of an experiment: blocks, their references (slow, and half as slow), spheres."""
+	known = json.loads((house / "scripts" / "calibrated.json").read_text())
+	for case, lines in blocks[mode].items():
+		if case.split()[0] == experiment: yield from blockPoints(mode, case, lines)
+	for case in ([experiment] if experiment != "shear" else ["shear " + stress for stress in spheres[mode]["stresses"]]):
+		for model in modelsOf[experiment]:
+			if f"{model} {experiment}" in known: yield from spherePoints(mode, case, model, known)
+
+
+def blockPoints(mode, case, lines):
+	experiment, base = case.split()[0], {"vtk": False, **stressOf(case)}
+	compared = mode == "full" or case in ("tension", "shear 0.5", "compression") # quick: one stress is enough for the slow runs
+	specimens = []
+	for knob, specimen, way in lines:
+		settings = {**base, **specimen, **way}
+		slowest = {**base, **specimen, "steps": slow[mode][experiment]} if compared and (mode == "full" or not specimen) else None
+		yield Point(case, "blocks", knob, inWords({**way, **specimen}), experiment, settings, slowest)
+		if slowest and specimen not in specimens: specimens.append(specimen)
+	for specimen in specimens:
+		for name, part in (("reference", 1), ("half as slow", 2)):
+			settings = {**base, **specimen, "steps": slow[mode][experiment] // part}
+			yield Point(case, "blocks", name, inWords({"steps": settings["steps"], **specimen}), experiment, settings, {**base, **specimen, "steps": slow[mode][experiment]}, part == 1)
+
+
+def spherePoints(mode, case, model, known):
+	experiment = case.split()[0]
+	base = {"experiment": experiment, "model": model, **stressOf(case)}
+	calibrated = known[f"{model} {experiment}"]["parameters"]
+	wanted = spheres[mode]
+	for factor in wanted["radius"]:
+		size = {"radius": round(factor * radius[experiment], 7)} if factor != 1 else {}
+		if size and model == "jcfpmSmooth": calibrated = {**calibrated, "jointStiffness": calibrated["jointStiffness"] / factor} # a bond's stiffness is E R, its area pi R^2
+		slowest = {**base, **calibrated, **size, "steps": slowSpheres[experiment]} if wanted["slow"] else None
+		for part in wanted["steps"] if factor == 1 else (1,):
+			way = {"steps": int(part * sphereSteps[experiment])}
+			yield Point(case, model, "steps" if factor == 1 else "radius", inWords({**way, **size}), "spheres", {**base, **calibrated, **size, **way}, slowest)
+		if slowest: yield Point(case, model, "reference", inWords({"steps": slowest["steps"], **size}), "spheres", slowest, slowest, True)
+	if case in ("shear 0.5", "compression") and (mode == "full" or model == "jcfpm") and f"{model} tension" in known: # what one set of parameters for all three gives
+		way = {"steps": int(sphereSteps[experiment] * wanted["steps"][0])}
+		foreign = {key: value for key, value in known[f"{model} tension"]["parameters"].items() if key != "unitStrength"}
+		if experiment == "compression": foreign["unitStrength"] = 10.7 # else bricks would never break
+		else: foreign["unitStrength"] = 1000
+		yield Point(case, model, "one set", "the parameters found in tension", "spheres", {**base, **foreign, **way}, None)
+
+
+def stressOf(case):
+	return {"sigma": float(case.split()[1]) * 1e6} if " " in case else {}
+
+
+def inWords(settings):
+	"""A setting in a few words: what it is in mm, thousands of steps, and so on."""
+	words = {"steps": lambda n: f"{n / 1000:g}k steps", "size": lambda x: f"{1e3 * x:g} mm", "unitSize": lambda x: f"{1e3 * x:g}", "mortarSize": lambda x: f"/ {1e3 * x:g} mm",
+		"radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}", "damping": lambda x: f"{x} damping", "servo": lambda on: "servo" if on else "no servo", "jump": lambda on: "jump" if on else "no jump"}
+	return " ".join(words.get(key, lambda x: f"{key} {x}")(value) for key, value in settings.items())
+
+
+def truths(case, results):
+	"""The laboratory's values; the stiffness in theory is that of the specimen as its scenario says."""
+	said = next((result["expected"] for result in results.values() if result and "expected" in result), {})
+	known = {name: value for name, (value, source) in curves.expectations(case.split()[0], stressOf(case).get("sigma", 0)).items()}
+	return {**known, **{name: said[name] for name in said if name == "joint_stiffness"}}
+
+
+def report(jobs, experiment, all):
+	"""Table, CSV, plot and reading of what has been run."""
+	names = tradeoff.quantities[experiment]
+	get = lambda point, settings: {seed: jobs.result(Job(point.script, settings, seed)) for seed in point.seeds}
+	rows = []
+	for point in all:
+		results = get(point, point.settings)
+		rows.append(tradeoff.summarise(point.case, point.model, point.knob, point.label, names, results, truths(point.case, results), get(point, point.slow) if point.slow else {}, point.isReference))
+	cases = {case: [row for row in rows if row.case == case] for case in dict.fromkeys(row.case for row in rows)}
+	texts = []
+	for case, mine in cases.items():
+		check = next((row.reference.get(names[0]) for row in mine if row.model == "blocks" and row.knob == "half as slow"), None)
+		texts.append((case, tradeoff.reading(case, mine, check, names)))
+	lines = [f"{case}: {line}" if len(cases) > 1 else line for case, lines in texts for line in lines]
+	place = jobs.folder / f"{experiment}-{p.mode}"
+	pandas.DataFrame(tradeoff.asRecords(rows)).to_csv(f"{place}.csv", index=False, float_format="%.6g")
+	pandas.DataFrame(runRecords(jobs, all)).to_csv(f"{place}-runs.csv", index=False, float_format="%.6g")
+	Path(f"{place}.md").write_text(f"# {experiment}, {p.mode} mode\n\n" + "\n".join("- " + line for line in lines) + "\n\n" + tradeoff.asMarkdown(rows, names) + "\n")
+	tradeoffpicture.drawTradeoff(f"{place}.png", cases, names, lines, title=f"{experiment}: error over CPU time, {max(len(point.seeds) for point in all)} seeds a point" + f", {min(p.seeds, spheres[p.mode]['packings'])} packings of spheres")
+	print(f"\n{experiment}\n" + "\n".join(lines) + f"\nsee {place}.png, .md, .csv", flush=True)
+
+
+def runRecords(jobs, all):
+	"""Every single run: what it measured and cost, or why it failed, and the command that repeats it."""
+	for point in all:
+		for seed in point.seeds:
+			result = jobs.result(Job(point.script, point.settings, seed))
+			if result: yield {"case": point.case, "model": point.model, "setting": point.label, "seed": seed, **result.get("measures", {}), "cpu_s": result.get("cost", {}).get("cpu_s"),
+				"steps": result.get("cost", {}).get("steps"), "unbalanced_ratio_max": result.get("quality", {}).get("unbalanced_ratio_max"), "failed": result.get("failed"), "command": result["command"]}
+
+
+# ---- calibration of the spheres: each model and experiment anew, since no set of parameters serves two experiments
+
+class Fit:
+	"""How a sphere model is calibrated for an experiment: where to start, which quantity is moved by which parameter, what follows from it."""
+
+	def __init__(self, start, targets, governs, seeds, tied):
+		self.start, self.targets, self.governs, self.seeds, self.tied = start, targets, governs, seeds, tied
+
+
+degrees = lambda tangent: math.degrees(math.atan(tangent))
+smoothPlanes = lambda q, experiment: {"jointStiffness": q["mortarYoung"] / (math.pi * radius[experiment])} # a bond's kn is E R, a plane's is stiffness times pi R^2
+
+
+def fits(model, experiment, known):
+	"""The Fit; `known` are the calibrations that are done already: shear takes its elastic parameters from tension, since no
+	laboratory stiffness is given."""
+	if experiment == "tension": # Tables 1 and 3: cohesion = tensile strength; bricks 22 times as stiff as the mortar layer with its joints
+		def tied(q):
+			q = {**q, "cohesion": q["tension"], "unitYoung": 22 * q["mortarYoung"], "poisson": 0.5, "unitStrength": 1000, "friction": 38, "residualFriction": 38, "ductility": 2}
+			return q if model != "jcfpmSmooth" else {**q, **smoothPlanes(q, experiment), "jointTension": q["tension"], "jointCohesion": q["cohesion"], "jointFriction": 38}
+		return Fit({"mortarYoung": 1.6e9, "tension": 1e6}, {name: value for name, (value, source) in curves.expectations("tension").items()},
+			{"peak_tensile_stress": "tension", "joint_stiffness": "mortarYoung"}, (101, 102, 103), tied)
+	if experiment == "shear": # Table 5: tensile strength = half the cohesion; mortar stiffer by 1.05 (series of mortar and joints, sides of 3.5 for 3.2 mm), bricks 21 times the mortar
+		young = 1.05 * known[f"{model} tension"]["parameters"]["mortarYoung"]
+		def tied(q):
+			elastic = {"mortarYoung": young, "unitYoung": 21 * young, "poisson": 0.5, "unitStrength": 1000, "ductility": 2, "tension": q["cohesion"] / 2, "cohesion": q["cohesion"]}
+			if model == "jcfpmSmooth": # a plane has one friction only: that of the residual; the layers in between are stronger than the planes
+				return {**elastic, **smoothPlanes(elastic, experiment), "jointCohesion": q["cohesion"], "jointTension": q["cohesion"] / 2, "cohesion": 3 * q["cohesion"],
+					"tension": 1.5 * q["cohesion"], "jointFriction": degrees(q["tangent"]), "friction": 45, "residualFriction": 36}
+			return {**elastic, "friction": degrees(q["tangent"]), "residualFriction": 36}
+		peaks = {"intercept": 0.87, "slope": 1.01} # of the line through the three peaks
+		start, targets, governs = {"cohesion": 3e6, "tangent": 1.0}, peaks, {"intercept": "cohesion", "slope": "tangent"}
+		if model in ("jcfpm", "cpm"): # bonds break in tension whatever their friction: 12 runs each for both targets ended no nearer to the slope; the peak in the middle is what can be met
+			start, targets, governs = {"cohesion": 4.5e6, "tangent": 1.0}, {"middle": 1.375}, {"middle": "cohesion"}
+		if model == "jcfpmSmooth": # friction is needed for the residual, so the planes' cohesion has to make up for the slope: 0.95 is the best line of slope 0.73 + what bulk bonds add
+			start, targets, governs = {"cohesion": 1.5e6, "tangent": 0.73}, {"intercept": 0.95, "residual": 0.365}, {"intercept": "cohesion", "residual": "tangent"}
+		return Fit(start, targets, governs, (101,), tied)
+	def tied(q): # Tables 7 to 9: bricks 8 times as stiff as mortar with their joints, 10.7 times as strong; cohesion twice the tensile strength
+		q = {**q, "cohesion": 2 * q["tension"], "unitYoung": 8 * q["mortarYoung"], "poisson": 0.5, "unitStrength": 10.7, "friction": 17, "residualFriction": 0.1, "ductility": 2}
+		return q if model != "jcfpmSmooth" else {**q, **smoothPlanes(q, experiment), "jointTension": q["tension"], "jointCohesion": q["cohesion"], "jointFriction": 15}
+	return Fit({"mortarYoung": 2.3e9, "tension": 1.7e6}, {"compressive_strength": 27.5, "youngs_modulus": 4100},
+		{"compressive_strength": "tension", "youngs_modulus": "mortarYoung"}, (101, 102), tied)
+
+
+def evaluate(jobs, model, experiment, parameters, seeds):
+	"""Means over packings; in shear of the line through the three peaks, and the residual stress at 0.5 N/mm2."""
+	settings = {"experiment": experiment, "model": model, **parameters}
+	cases = [{**settings, "sigma": sigma} for sigma in sigmas] if experiment == "shear" else [settings]
+	asked = [[Job("spheres", case, seed) for seed in seeds] for case in cases]
+	jobs.do([job for case in asked for job in case])
+	found = [[jobs.result(job) for job in case] for case in asked]
+	for result in (result for case in found for result in case):
+		if "failed" in result: return dict.fromkeys(("intercept", "slope", "middle", "residual", "peak_tensile_stress", "joint_stiffness", "compressive_strength", "youngs_modulus"), math.nan)
+	means = [{name: sum(result["measures"][name] for result in case) / len(case) for name in case[0]["measures"]} for case in found]
+	if experiment != "shear": return means[0]
+	peaks = [mean["peak_shear_stress"] for mean in means]
+	x = [sigma / 1e6 for sigma in sigmas]
+	mx, my = sum(x) / 3, sum(peaks) / 3
+	slope = sum((a - mx) * (b - my) for a, b in zip(x, peaks)) / sum((a - mx)**2 for a in x)
+	return {"intercept": my - slope * mx, "slope": slope, "middle": peaks[1], "residual": means[1]["residual_shear_stress"]}
+
+
+def calibrateAll(jobs):
+	path = house / "scripts" / "calibrated.json"
+	known = json.loads(path.read_text())
+	for experiment in experiments:
+		for model in modelsOf[experiment] if p.model == "all" else (p.model,):
+			fit = fits(model, experiment, known)
+			found = calibration.calibrate(lambda q: evaluate(jobs, model, experiment, fit.tied(q), fit.seeds), fit.start, fit.targets, fit.governs, tolerance=0.03, rounds=4)
+			runs = found.rounds * len(fit.seeds) * (len(sigmas) if experiment == "shear" else 1)
+			known[f"{model} {experiment}"] = {
+				"parameters": {key: float(f"{value:.5g}") for key, value in fit.tied(found.parameters).items()}, "targets": fit.targets, "reached": {name: round(value, 4) for name, value in found.measured.items()},
+				"rounds": found.rounds, "runs": runs, "packings": list(fit.seeds)}
+			path.write_text(json.dumps(known, indent=1) + "\n")
+			print(f"{model} {experiment}: {runs} runs, reached", known[f"{model} {experiment}"]["reached"], "for", fit.targets, flush=True)
+
+
+# ---- running
+
+def interrupt(*_): raise KeyboardInterrupt
+signal.signal(signal.SIGTERM, interrupt)
+signal.signal(signal.SIGINT, interrupt) # also where the shell has it ignored
+plugin = os.environ.get("YADEBLOCKS_PLUGIN", house / "build" / "libyadeblocks.so")
+jobs = Jobs(house, house / p.out, plugin, pluginFree=("spheres",), limit=p.limit, parallel=p.jobs, retry=p.retry)
+everything = {} if p.mode == "calibrate" else {
+	experiment: [point for point in points(p.mode, experiment) if p.model in ("all", point.model)] for experiment in experiments}
+stopped = False
+try:
+	if p.mode == "calibrate":
+		calibrateAll(jobs)
+		sys.exit()
+	jobs.do([Job(point.script, point.settings, seed) for seed in range(1, p.seeds + 1) for all in everything.values() for point in all if seed in point.seeds]) # seed by seed, so that an early end leaves all points
+except KeyboardInterrupt:
+	print("interrupted: what is complete is kept; the same command continues", file=sys.stderr)
+	stopped = True
+for experiment, all in everything.items():
+	if all: report(jobs, experiment, all) # model= may leave nothing
+sys.exit(130 if stopped else 0)

@@ -1,0 +1,362 @@
+# yade-blocks, GPL-2.0-or-later
+"""Error against run time: how curves are read, runs kept, fronts and readings found, parameters calibrated, spheres packed.
+
+No test needs YADE; a small program of that name stands in for it where runs are started.
+"""
+import json
+import math
+import os
+import stat
+import sys
+import types
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+package = Path(__file__).parents[2] / "py" / "yadeblocks"
+with pytest.MonkeyPatch.context() as patch: # the modules without the plugin, which importing their package would load
+	bare = types.ModuleType("yadeblocks")
+	bare.__path__ = [str(package)]
+	before = {name: sys.modules.pop(name) for name in list(sys.modules) if name.partition(".")[0] == "yadeblocks"}
+	patch.setitem(sys.modules, "yadeblocks", bare)
+	from yadeblocks import calibration, curves, jobs, packing, study, tradeoff, tradeoffpicture
+for name in [name for name in sys.modules if name.startswith("yadeblocks.")]: # other tests want the real package
+	del sys.modules[name]
+sys.modules.update(before)
+
+
+# ---- curves
+
+ramp = np.arange(0, 101) / 100
+
+
+def values(measured):
+	return {name: value for name, (value, unit) in measured.items()}
+
+
+def test_tensionCurve():
+	x, y = 10e-3 * np.append(ramp, 1.01), np.append(0.35 * ramp, 0) # to 0.35 N/mm2 at 10 um, then nothing
+	x[:99] *= 1 - 1e-9 # so that 98 % of the way is just not reached by the sample there
+	m = values(curves.measure("tension", x, y))
+	assert m["joint_stiffness"] == pytest.approx(35)
+	assert m["peak_tensile_stress"] == pytest.approx(0.35 * 0.995) # mean of the last two of 100 samples: half a sample lower
+
+
+def test_oneSampleIsNoPeak():
+	x = np.linspace(0, 1, 401)
+	y = np.minimum(x, 0.5)
+	y[300] = 0.9 # a spike at 0.75; 2 % of the way to it are 7 samples: it counts as a seventh of its height above the plateau
+	assert values(curves.measure("tension", x, y))["peak_tensile_stress"] == pytest.approx(0.5 + 0.4 / 7)
+
+
+def test_shearCurveHasAResidual():
+	x = np.linspace(0, 0.5, 501)
+	y = np.where(x < 0.1, 20 * x, 0.4) # peak 2 at 0.1 mm
+	m = values(curves.measure("shear", x, y))
+	assert m["residual_shear_stress"] == pytest.approx(0.4) and m["shear_stiffness"] == pytest.approx(20)
+
+
+def test_modulusComesFromPermille():
+	strain = 5 * ramp # permille
+	assert values(curves.measure("compression", strain, 4.1 * strain))["youngs_modulus"] == pytest.approx(4100)
+
+
+@pytest.mark.parametrize("x, y", [([2.0, 2.5, 3], [0.8, 0.9, 1]), ([0, 2, 2.5, 3], [0, 0.8, 0.9, 1]), ([1, 3, 3.5, 4], [0, 0.8, 0.9, 1])])
+def test_elasticJump(x, y):
+	assert values(curves.measure("tension", x, y))["joint_stiffness"] == pytest.approx(0.4)
+
+
+def test_curveWithoutElasticPart():
+	assert math.isnan(values(curves.measure("tension", [0, 1, 2], [1, 0.9, 0.8]))["joint_stiffness"])
+
+
+def test_expectationsFollowThePrecompression():
+	assert curves.expectations("shear", 0.5e6)["peak_shear_stress"][0] == pytest.approx(1.375)
+	assert curves.expectations("shear", 0)["residual_shear_stress"][0] is None # no relative error against zero
+
+
+# ---- fingerprints
+
+
+@pytest.fixture
+def tree(tmp_path):
+	for name, text in {
+	        "py/yadeblocks/__init__.py": "from . import _plugin\n", "py/yadeblocks/_plugin.py": "", "py/yadeblocks/results.py": "from .export import pairName\n",
+	        "py/yadeblocks/export.py": "import numpy\n", "py/yadeblocks/unused.py": "", "scripts/mine.py": "from yadeblocks.results import Results\nimport os\n"
+	}.items():
+		(tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+		(tmp_path / name).write_text(text)
+	return tmp_path
+
+
+def test_sourcesAreFollowed(tree):
+	found = {path.name for path in study.sourcesOf(tree / "scripts/mine.py", tree / "py/yadeblocks")}
+	assert found == {"mine.py", "__init__.py", "_plugin.py", "results.py", "export.py"}
+
+
+def test_realScriptsKnowTheirSources():
+	found = {path.name for path in study.sourcesOf(package.parents[1] / "scripts/tension.py", package)}
+	assert {"tension.py", "results.py", "scenario.py", "specimen.py", "export.py", "_plugin.py"} <= found and "packing.py" not in found
+
+
+@pytest.mark.parametrize("changed", ["scripts/mine.py", "py/yadeblocks/export.py"])
+def test_fingerprintSeesContents(tree, changed):
+	files = study.sourcesOf(tree / "scripts/mine.py", tree / "py/yadeblocks")
+	before = study.fingerprint(files, "YADE 1")
+	assert before == study.fingerprint(list(reversed(files)), "YADE 1") != study.fingerprint(files, "YADE 2")
+	(tree / changed).write_text((tree / changed).read_text() + "# a change\n")
+	assert study.fingerprint(files, "YADE 1") != before
+
+
+def test_contentsMayNotChangePlaces(tmp_path):
+	a, b = tmp_path / "a.py", tmp_path / "b.py"
+	a.write_text("x"), b.write_text("yz")
+	before = study.fingerprint([a, b])
+	a.write_text("yz"), b.write_text("x")
+	assert study.fingerprint([a, b]) != before
+
+
+def test_sameSettingsSameKey():
+	assert study.settingsKey({"steps": 40000, "alpha": 0.3}) == study.settingsKey({"alpha": 0.3, "steps": 4e4})
+	assert study.settingsKey({"vtk": False}) == "vtk=false"
+	assert study.settingsKey({"alpha": 0.3}) != study.settingsKey({"alpha": 0.30000000001})
+
+
+# ---- runs
+
+imitation = """#!/usr/bin/python3
+import json, os, pathlib, sys
+if '--version' in sys.argv: sys.exit(print('YADE ' + os.environ.get('FAKE', '1')))
+words = dict(word.split('=', 1) for word in sys.argv if '=' in word)
+with open(os.environ['CALLS'], 'a') as calls: calls.write(' '.join(sys.argv[4:]) + chr(10))
+if 'refuse' in words: sys.exit('mine.refuse must not be given')
+if 'silent' in words: sys.exit()
+folder = pathlib.Path('out/tension-' + words['tag'])
+folder.mkdir(parents=True)
+stress = float(words.get('strength', '0.35'))
+rows = ['seed,displacement_mm,stress_MPa'] + ['1,%g,%g' % (i / 1e4, stress * i / 100) for i in range(101)]
+(folder / 'curve.csv').write_text(chr(10).join(rows))
+(folder / 'result.json').write_text(json.dumps({'quantities': [], 'cost': {'cpu_s': 1.5, 'steps': 7}, 'quality': {}}))
+"""
+
+
+@pytest.fixture
+def house(tree, monkeypatch):
+	(tree / "scripts/tension.py").write_text("from yadeblocks.results import Results\n")
+	(tree / "plugin.so").write_bytes(b"plugin")
+	(tree / "bin").mkdir()
+	program = tree / "bin/yade"
+	program.write_text(imitation)
+	program.chmod(program.stat().st_mode | stat.S_IXUSR)
+	monkeypatch.setenv("PATH", f"{tree / 'bin'}:{os.environ['PATH']}")
+	monkeypatch.setenv("CALLS", str(tree / "calls"))
+	jobs._yade.cache_clear()
+	return tree
+
+
+def started(house, **more):
+	return jobs.Jobs(house, house / "out/benchmark", house / "plugin.so", stream=open(os.devnull, "w"), **more)
+
+
+def calls(house):
+	return len((house / "calls").read_text().splitlines()) if (house / "calls").exists() else 0
+
+
+def test_resultsAreKept(house):
+	job = jobs.Job("tension", {"steps": 1000, "strength": 0.4}, 3)
+	assert started(house).result(job) is None
+	started(house).do([job, jobs.Job("tension", {"strength": 0.4, "steps": 1e3}, 3)]) # the same one
+	again = started(house)
+	again.do([job])
+	assert calls(house) == 1
+	result = again.result(job)
+	assert result["measures"]["peak_tensile_stress"] == pytest.approx(0.397, abs=0.0011) and result["cost"]["cpu_s"] == 1.5
+	assert result["command"] == "scripts/run.sh tension steps=1000 strength=0.4 seed=3"
+	assert {path.name for path in (house / "out/benchmark").iterdir()} == {"runs", ".lock"} # nothing is left lying about
+
+
+@pytest.mark.parametrize("changed", ["scripts/tension.py", "py/yadeblocks/export.py", "plugin.so"])
+def test_changedCodeIsRunAnew(house, changed):
+	job = jobs.Job("tension", {"steps": 1000}, 1)
+	started(house).do([job])
+	(house / changed).write_text((house / changed).read_text() + "# a change\n")
+	assert started(house).result(job) is None
+	started(house).do([job])
+	assert calls(house) == 2
+	started(house, pluginFree=("tension",)).do([job])
+	(house / "plugin.so").write_bytes(b"another plugin")
+	assert started(house, pluginFree=("tension",)).result(job) # which does not depend on it
+
+
+def test_changedYadeIsRunAnew(house, monkeypatch):
+	job = jobs.Job("tension", {"steps": 1000}, 1)
+	started(house).do([job])
+	monkeypatch.setenv("FAKE", "2")
+	jobs._yade.cache_clear()
+	assert started(house).result(job) is None
+
+
+@pytest.mark.parametrize("settings, reason", [({"refuse": 1}, "exit code 1: mine.refuse must not be given"), ({"silent": 1}, "left no result (FileNotFoundError): (said nothing)")])
+def test_failuresAreKeptWithTheirReason(house, settings, reason):
+	job = jobs.Job("tension", settings, 1)
+	started(house).do([job])
+	assert started(house).result(job)["failed"] == reason
+	assert started(house).wanted([job]) == [] and started(house, retry=True).wanted([job]) == [job]
+
+
+def test_codeThatChangesMeanwhile(house):
+	program = house / "bin/yade"
+	program.write_text(imitation + "(pathlib.Path('%s') / 'py/yadeblocks/export.py').write_text('# edited')\n" % house)
+	job, some = jobs.Job("tension", {"steps": 1000}, 1), started(house)
+	with pytest.raises(RuntimeError, match="has changed while it was running"):
+		some.do([job])
+	assert some.result(job) is None and started(house).result(job) is None
+
+
+def test_halfWrittenResultsAreNoResults(house):
+	job, some = jobs.Job("tension", {"steps": 1000}, 1), started(house)
+	some.kept.mkdir(parents=True)
+	some.path(job).with_suffix(".part").write_text('{"job"')
+	some.work.mkdir()
+	(some.work / "out").mkdir() # leftovers
+	assert started(house).result(job) is None
+	some.do([job])
+	assert "measures" in started(house).result(job)
+
+
+def test_oneAtATime(house):
+	job, first = jobs.Job("tension", {"steps": 1000}, 1), started(house)
+	first.do([job])
+	with first._claimed(), pytest.raises(RuntimeError, match="another benchmark is running"):
+		started(house).do([job._replace(seed=2)])
+	started(house).do([job._replace(seed=2)]) # it is free again
+
+
+# ---- errors and fronts
+
+
+def result(peak, cpu=1.0, stiffness=36.0):
+	return {"measures": {"peak_tensile_stress": peak, "joint_stiffness": stiffness}, "cost": {"cpu_s": cpu}}
+
+
+def test_errorOf():
+	error = tradeoff.errorOf([1.1, 0.9, 1.0], 1.0)
+	assert error.mean == pytest.approx(0) and error.scatter == pytest.approx(0.1) and error.rms == pytest.approx(math.sqrt(0.02 / 3)) and error.seeds == 3
+	assert tradeoff.errorOf([1.1, 2.2], [1.0, 2.0]).rms == pytest.approx(0.1) # each against its own
+	assert tradeoff.errorOf([1.0], None) is None and tradeoff.errorOf([], 1.0) is None
+
+
+def test_rowsCompareSeedWithSeed():
+	results = {1: result(0.42, 2), 2: result(0.33, 4), 3: {"failed": "exit code 1"}, 4: None}
+	references = {1: result(0.40), 2: result(0.30), 3: result(0.35), 4: None}
+	row = tradeoff.summarise("tension", "blocks", "steps", "5k steps", tradeoff.quantities["tension"], results, {"peak_tensile_stress": 0.35}, references)
+	assert row.seeds == 2 and row.cpu == 3 and row.failed == "exit code 1; 1 of 4 not run"
+	assert row.reference["peak_tensile_stress"].mean == pytest.approx(0.075) # 5 and 10 %
+	assert row.laboratory["peak_tensile_stress"].mean == pytest.approx((0.42 + 0.33) / 0.7 - 1) and row.laboratory["joint_stiffness"] is None
+	assert row.worst("reference") == pytest.approx(math.sqrt((0.05**2 + 0.1**2) / 2)) and math.isnan(row.rms("laboratory", "joint_stiffness"))
+
+
+def test_pareto():
+	points = [(1, 10), (2, 5), (3, 6), (2, 7), (4, 1), (5, 1), (math.nan, 0), (0.5, math.nan)]
+	assert tradeoff.pareto(points) == [0, 1, 4]
+	assert tradeoff.pareto([]) == []
+
+
+def rowOf(label, cpu, rms, model="blocks", knob="steps", failed="", isReference=False, laboratory=0.1):
+	error = lambda value: {"peak_tensile_stress": tradeoff.Error(value, value / 2, value, 5), "joint_stiffness": tradeoff.Error(0.5 * value, 0.0, 0.5 * value, 5)}
+	return tradeoff.Row("tension", model, knob, label, 5, cpu, {"peak_tensile_stress": (0.35, 0.01), "joint_stiffness": (36.0, 0.1)}, error(laboratory),
+		{} if isReference else error(rms), failed, isReference)
+
+
+study4 = [rowOf("2k steps", 0.2, 0.12), rowOf("5k steps", 0.5, 0.04), rowOf("lucky", 0.4, 0.001, failed="exit code 1"), rowOf("20k steps", 2, 0.015),
+	rowOf("80k steps", 8, 0, isReference=True), rowOf("20k steps alpha 0.8", 2, 0.2, knob="alpha"), rowOf("5k steps 9 mm", 0.01, 0.001, knob="size"), rowOf("20k steps", 20, 0.01, model="jcfpm")]
+
+
+def test_cheapestNeedsAllSeeds():
+	error = lambda row: row.rms("reference", "peak_tensile_stress")
+	assert tradeoff.cheapest(study4[:4], 0.05, error).label == "5k steps" # not the one of which a seed failed
+	assert tradeoff.cheapest(study4[:4], 0.01, error) is None
+
+
+def test_reading():
+	lines = tradeoff.reading("tension", study4, tradeoff.Error(0.003, 0.001, 0.004, 5), tradeoff.quantities["tension"])
+	text = "\n".join(lines)
+	assert len(lines) <= 10 and "5 seeds" in lines[0] and "+0.3 % ± 0.1 %" in lines[0]
+	assert "5 % in the peak: 5k steps (0.5 CPU s, 4 %)" in text and "2 % in the peak: 20k steps (2 CPU s, 1.5 %)" in text
+	assert "1 % in the peak: none of the settings tried; the best is 20k steps" in text # the spheres' 1 % is not ours
+	assert "20k steps alpha 0.8 20 % (2 s) instead of 1.5 % (2 s)" in text and "9 mm" not in text # which is another specimen
+	assert "the slow run gives peak +10 %" in text and "calibrated for this experiment: jcfpm peak +10 % ± 5 %, stiffness +5 % ± 0 % (20 CPU s)" in text
+	assert "Spheres against their own slow runs: jcfpm 20k steps 1 % (20 s)" in text
+	assert "Failed, see the table: blocks lucky." in text and "Not all seeds" not in text
+
+
+def test_readingAgainstAReferenceThatMoves():
+	text = "\n".join(tradeoff.reading("tension", study4, tradeoff.Error(0.03, 0.01, 0.032, 5), tradeoff.quantities["tension"]))
+	assert "5 % in the peak: 5k steps" in text and "Errors below 3.2 % cannot be judged" in text and "2 % in the peak" not in text and "1 % in the peak" not in text
+
+
+def test_readingOfWhatIsNotThere():
+	lines = tradeoff.reading("tension", [rowOf("2k steps", 0.2, 0, isReference=True), rowOf("5k steps", math.nan, math.nan, failed="5 of 5 not run")._replace(reference={}, laboratory={})], None, tradeoff.quantities["tension"])
+	assert lines == ["Laboratory: the slow run gives peak +10 % ± 5 %, stiffness +5 % ± 0 %.", "Not all seeds were run (yet): blocks 5k steps."]
+
+
+def test_tables(tmp_path):
+	names = tradeoff.quantities["tension"]
+	text = tradeoff.asMarkdown(study4, names)
+	assert text.count("\n") == len(study4) + 1 and "| 2k steps * |" in text and "alpha 0.8 *" not in text and "80k steps (reference)" in text and "5 (exit code 1)" in text
+	records = list(tradeoff.asRecords(study4))
+	assert records[0]["peak_tensile_stress reference error rms"] == 0.12 and math.isnan(records[4]["joint_stiffness reference error"])
+	assert len({tuple(record) for record in records}) == 1 # the same columns in all rows
+	path = tradeoffpicture.drawTradeoff(tmp_path / "p.png", {"tension": study4}, names, ["a line"], "title")
+	assert path.stat().st_size > 10000
+
+
+# ---- calibration
+
+
+def test_calibration():
+	evaluate = lambda q: {"stiffness": 3e-8 * q["young"]**0.8, "peak": 0.4e-6 * q["tension"] * (q["young"] / 1e9)**0.1} # coupled and not linear
+	found = calibration.calibrate(evaluate, {"young": 1e9, "tension": 1e6}, {"stiffness": 1.0, "peak": 0.35}, {"stiffness": "young", "peak": "tension"}, tolerance=0.005, rounds=8)
+	assert found.misfit({"stiffness": 1.0, "peak": 0.35}) <= 0.005 and found.rounds < 8
+	assert evaluate(found.parameters) == found.measured
+
+
+def test_calibrationKeepsTheBest():
+	answers = iter([{"peak": 1.2}, {"peak": 1.05}, {"peak": 3.0}])
+	found = calibration.calibrate(lambda q: next(answers), {"tension": 1.0}, {"peak": 1.0}, {"peak": "tension"}, rounds=3)
+	assert found.measured == {"peak": 1.05} and found.rounds == 3
+
+
+def test_calibrationSurvivesNothing():
+	answers = iter([{"peak": math.nan}, {"peak": -0.1}, {"peak": 1.0}])
+	asked = []
+	found = calibration.calibrate(lambda q: (asked.append(dict(q)), next(answers))[1], {"tension": 1.0}, {"peak": 1.0}, {"peak": "tension"}, rounds=5)
+	assert [q["tension"] for q in asked] == [1, 2, 4] and found.rounds == 3
+
+
+# ---- packings
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_randomPacking(seed):
+	width, height, radius = 0.05, 0.02, 1e-3
+	centres, radii = packing.randomPacking(width, height, radius, seed)
+	assert (centres >= radii[:, None] - 1e-12).all() and (centres <= np.array([width, height]) - radii[:, None] + 1e-12).all()
+	assert 0.8e-3 <= radii.min() and radii.max() <= 1.2e-3
+	distance = np.hypot(*(centres[:, None] - centres[None]).transpose(2, 0, 1))
+	overlap = np.maximum(radii[:, None] + radii[None] - distance, 0)
+	np.fill_diagonal(overlap, 0)
+	assert overlap.max(axis=1).mean() <= 0.02 * radius
+	assert 0.72 < (math.pi * radii**2).sum() / (width * height) < 0.86 # loose 2D packings take 0.77 in bulk, walls cost some
+	again, other = packing.randomPacking(width, height, radius, seed), packing.randomPacking(width, height, radius, seed + 10)
+	assert np.array_equal(again[0], centres) and not np.array_equal(other[0][:10], centres[:10])
+
+
+def test_hexagonalPackingTouches():
+	centres, radii = packing.hexagonalPacking(0.05, 0.03, 1e-3, 3)
+	distance = np.hypot(*(centres[:, None] - centres[None]).transpose(2, 0, 1))
+	np.fill_diagonal(distance, 1)
+	assert distance.min() == pytest.approx(2e-3, rel=1e-9)
+	inside = (abs(centres - (0.025, 0.015)) < (0.02, 0.01)).all(axis=1)
+	assert ((distance < 2.0001e-3).sum(axis=1)[inside] == 6).all()
