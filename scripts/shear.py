@@ -85,7 +85,7 @@ def shear(seed, steps, label):
 		                        JointMat(material1='mortar', material2='mortar', **joint),
 		                        JointMat(material1='unit', material2='mortar', **joint)])],
 		                [Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
-		BlockTimeStepper(),                                        # scaled masses
+		BlockTimeStepper(safety=p.safety),                         # scaled masses
 		BlockForces(),                                             # zones and joints, gathered node by node
 		BlockIntegrator(damping=p.damping, alpha=p.alpha)]         # motion
 	if p.servo: O.engines = O.engines[:-1] + [BlockServo(groups=['shear'], floor=floor)] + O.engines[-1:] # as slow as the blocks want it

@@ -90,7 +90,7 @@ def pull(model, steps, progressLabel):
 		                        JointMat(material1='mortar', material2='mortar', **mortarJoint),
 		                        JointMat(material1='unit', material2='mortar', **unitJoint)])],
 		                [Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
-		BlockTimeStepper(),                                        # scaled masses
+		BlockTimeStepper(safety=p.safety),                         # scaled masses
 		BlockForces(),                                             # zones and joints, gathered node by node
 		BlockIntegrator(damping=p.damping, alpha=p.alpha)]         # motion
 	if p.servo: O.engines = O.engines[:-1] + [BlockServo(groups=['top'], floor=floor)] + O.engines[-1:] # as slow as the blocks want it

@@ -41,6 +41,7 @@ _common = {
         "lloyd": _Common(2, notNegative, "Lloyd iterations: how regular the cells are"),
         "damping": _Common("local", choice("local", "adaptive", "none"), "damping of the motion"),
         "alpha": _Common(0.3, Rule(lambda a: 0 <= a < 1, "must lie in [0, 1)"), "coefficient of local damping"),
+        "safety": _Common(0.7, Rule(lambda s: 0 < s <= 0.95, "must lie in (0, 0.95]"), "time step as a fraction of the stable one; with local damping at most 0.95/sqrt(1+alpha)"),
         "steps": _Common(40000, Rule(lambda n: n >= 1000, "must be at least 1000"), "time steps for the whole loading"),
         "plane": _Common("strain", choice("strain", "stress"), "plane strain or plane stress"),
 }
@@ -48,7 +49,7 @@ _common = {
 
 def commonParameters(**defaults):
 	"""The keys that every scenario has, with their defaults: `seed seeds threads tag size sizeMeaning lloyd damping alpha
-	steps plane`. Keyword arguments give a scenario's own defaults. Their rules are known to `parameters`.
+	safety steps plane`. Keyword arguments give a scenario's own defaults. Their rules are known to `parameters`.
 
 	Raises TypeError for a name that is not common to all scenarios."""
 	strangers = set(defaults) - set(_common)
@@ -108,6 +109,8 @@ def parse(words, defaults, allowed=None, scenario="scenario"):
 			raise ParameterError(f"{scenario}.{key} {rule.text}, got {values[key]!r}")
 	if "alpha" in texts and values.get("damping", "local") != "local":
 		raise ParameterError(f"{scenario}.alpha must only be given with damping=local, got damping={values['damping']}")
+	if "safety" in values and values.get("damping") == "local" and values["safety"] > 0.95 / math.sqrt(1 + values["alpha"]):
+		raise ParameterError(f"{scenario}.safety must not exceed 0.95/sqrt(1+alpha) = {0.95 / math.sqrt(1 + values['alpha']):.3g} with damping=local, got {values['safety']}")
 	return Parameters(scenario, values)
 
 
