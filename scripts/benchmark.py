@@ -53,7 +53,7 @@ sigmas = (0.1e6, 0.5e6, 1e6) # [Pa], shear
 # ---- the study: for each experiment lines of (knob, what changes the specimen, what changes only the way it is computed)
 
 slow = { # steps of the reference; half of them show how far it is converged
-	"quick": {"tension": 80000, "shear": 40000, "compression": 30000}, "full": {"tension": 320000, "shear": 160000, "compression": 240000}}
+	"quick": {"tension": 80000, "shear": 24000, "compression": 30000}, "full": {"tension": 320000, "shear": 96000, "compression": 240000}}
 slowSpheres = {"tension": 160000, "shear": 64000, "compression": 80000} # full
 
 def steps(*numbers): return [("steps", {}, {"steps": n}) for n in numbers]
@@ -64,17 +64,18 @@ def layers(unit, mortar): return {"unitSize": unit, "mortarSize": mortar}
 blocks = { # a key that a scenario does not have (yet) is in the table as failed
 	"quick": {
 		"tension": steps(2500, 5000, 10000, 20000) + way("alpha", 10000, 0.3) + way("jump", 10000, False) + way("servo", 10000, True) + specimen("size", 10000, 6e-3),
-		"shear 0.1": steps(10000),
-		"shear 0.5": steps(2500, 5000, 10000) + way("alpha", 5000, 0.8) + way("servo", 2500, True),
-		"shear 1.0": steps(10000),
+		"shear 0.1": steps(6000),
+		"shear 0.5": steps(1500, 3000, 6000) + way("alpha", 6000, 0.8) + way("servo", 1500, True),
+		"shear 1.0": steps(6000),
 		"compression": steps(5000, 10000)},
 	"full": {
 		"tension": steps(1000, 2500, 5000, 10000, 20000, 40000, 80000) + way("alpha", 10000, 0.1, 0.3, 0.5) + way("alpha", 40000, 0.1, 0.3, 0.5)
 			+ way("damping", 10000, "adaptive", "none") + way("damping", 40000, "adaptive", "none") + way("jump", 5000, False) + way("jump", 20000, False)
-			+ way("servo", 2500, True) + way("servo", 10000, True) + way("servo", 10000, True, jump=False) + X1, 1e-3, 1.5e-3, 3e-3, 6e-3) + specimen("plane", 40000, "stress"),
-		**{case: steps(2500, 5000, 10000, 20000, 40000, 80000) + way("alpha", 10000, 0.1, 0.5, 0.8) + way("alpha", 40000, 0.1, 0.5, 0.8)
-			+ way("damping", 20000, "adaptive", "none") + way("jump", 10000, False) + way("servo", 5000, True) + way("servo", 20000, True) + way("servo", 20000, True, jump=False)
-			+ way("safety", 20000, 0.4, 0.85) + specimen("size", 20000, 2.5e-3, 5e-3) + specimen("plane", 20000, "stress")
+			+ way("servo", 2500, True) + way("servo", 10000, True) + way("servo", 10000, True, jump=False) + way("safety", 20000, 0.4) + way("safety", 20000, 0.9, alpha=0.1)
+			+ specimen("size", 40000, 1e-3, 1.5e-3, 3e-3, 6e-3) + specimen("plane", 40000, "stress"),
+		**{case: steps(1500, 3000, 6000, 12000, 24000, 48000) + way("alpha", 6000, 0.1, 0.5, 0.8) + way("alpha", 24000, 0.1, 0.5, 0.8)
+			+ way("damping", 12000, "adaptive", "none") + way("jump", 6000, False) + way("servo", 3000, True) + way("servo", 12000, True) + way("servo", 12000, True, jump=False)
+			+ way("safety", 12000, 0.4, 0.85) + specimen("size", 12000, 2.5e-3, 5e-3) + specimen("plane", 12000, "stress")
 			for case in ("shear 0.1", "shear 0.5", "shear 1.0")},
 		"compression": steps(2500, 5000, 10000, 20000, 30000, 60000) + way("alpha", 10000, 0.1, 0.4, 0.8) + way("alpha", 30000, 0.1, 0.4, 0.8)
 			+ way("damping", 30000, "adaptive", "none") + way("jump", 10000, False) + way("servo", 5000, True) + way("servo", 20000, True) + way("servo", 20000, True, jump=False)

@@ -219,7 +219,7 @@ def run(seed):
 		progress(travelled() / specimen['stroke'] * p.steps)
 
 	globals().update(load=load, record=record)
-	O.engines += [PyRunner(command='load()', iterPeriod=max(1, p.steps // 1000)), PyRunner(command='record()', iterPeriod=max(1, min(50, p.steps // 400)))]
+	O.engines += [PyRunner(command='load()', iterPeriod=max(1, p.steps // 1000)), PyRunner(command='record()', iterPeriod=max(1, p.steps // (1600 if p.experiment == 'tension' else 400)))]
 	load()
 	stop = loading.Stop(drop=None if press else 0.5, displacement=specimen['stroke'])
 	with Progress(p.steps, lambda: 'stress %.3f MPa' % (history[-1][1] / 1e6), label='seed %d' % seed) as progress:
