@@ -157,3 +157,23 @@ TEST(StabilityWatch, WarnsOnceOfThickJointsAndStopsBlocksThatEnterOthers)
 	EXPECT_NE(gone.reason.find("gone into block 1"), std::string::npos) << gone.reason;
 	EXPECT_EQ(watch.restore(a), 200);
 }
+
+TEST(StabilityWatch, TellsOfLostFragmentsAndStopsWhereManyAre)
+{
+	// Two squares in each other: both innermost points are lost, 2 of 150 blocks or of 250.
+	for (int count : { 150, 250 }) {
+		Pressed p;
+		for (int i = 2; i < count; ++i)
+			addGrid(p.a, { 3. * i, 50 }, 1, 1, 1, 1);
+		p.put(0.8);
+		StabilityWatch watch;
+		const auto     verdict = watch.look(p.a, 0, 0, 1e-6);
+		EXPECT_EQ(verdict.stable, count == 250);
+		if (count == 150) {
+			EXPECT_NE(verdict.reason.find("more than half"), std::string::npos);
+		} else {
+			EXPECT_NE(verdict.warning.find("fragments"), std::string::npos);
+			EXPECT_EQ(watch.look(p.a, 100, 0, 1e-6).warning, ""); // once
+		}
+	}
+}

@@ -66,9 +66,10 @@ void OverlapWatch::look(const BlockAssembly& a)
 	joint = contact = {};
 	through         = { -1, -1 };
 	inverted        = -1;
+	entries         = 0;
 	auto enter      = [&](const std::array<int, 2>& block) {
                 for (int side : { 0, 1 })
-                        if (through[0] < 0 && entered(a, block[side], block[1 - side])) through = { block[side], block[1 - side] };
+                        if (entered(a, block[side], block[1 - side]) && entries++ == 0) through = { block[side], block[1 - side] };
 	};
 
 	for (const Pair& pair : a.pairs) {

@@ -55,8 +55,8 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 
 	overlaps.look(a);
 	const char* const cure = "; joints must be stiffer or loads smaller";
-	if (overlaps.through[0] >= 0)
-		return { false, overlaps.through[0], "it has gone into block " + std::to_string(overlaps.through[1]) + " by more than half" + cure };
+	const std::string entered = overlaps.entries == 0 ? "" : "has gone into block " + std::to_string(overlaps.through[1]) + " by more than half";
+	if (overlaps.entries > lostShare * a.blockCount()) return { false, overlaps.through[0], "it " + entered + cure };
 	if (overlaps.inverted >= 0) return { false, overlaps.inverted, "a zone has turned inside out" };
 
 	Real turnover = 0;
@@ -96,6 +96,10 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 	if (!warned && overlaps.thickest().share() > OverlapWatch::thin) {
 		warned       = true;
 		good.warning = described(overlaps.thickest()) + "; up to 10 % a joint may count as thin" + cure;
+	}
+	if (!lossTold && overlaps.entries > 0) {
+		lossTold = true;
+		good.warning += (good.warning.empty() ? "" : "; ") + ("block " + std::to_string(overlaps.through[0]) + " " + entered + ": fragments get lost there" + cure);
 	}
 	return good;
 }

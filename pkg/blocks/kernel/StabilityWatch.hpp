@@ -20,6 +20,9 @@ public:
 	/// ... and is an instability if it has grown by this factor since the last look: an unstable mode grows exponentially,
 	/// a velocity that a script has set does not.
 	static constexpr Real growth = 2;
+	/// Blocks that have entered each other by more than half stop the run if they are more than this share of all. Single
+	/// fragments of a crushed specimen are told, no more.
+	static constexpr Real lostShare = 0.01;
 
 	/// Steps between two looks that are compared: work is booked half a step late, which counts while a motion sets in.
 	static constexpr long leastInterval = 20;
@@ -54,6 +57,7 @@ private:
 	OverlapWatch overlaps;
 	bool  begun      = false;
 	bool  warned     = false;
+	bool  lossTold   = false;
 	Real  baseline   = 0; ///< energy at the first look less the work done by then [J]
 	Real  lastExcess = 0;
 	long  compared   = 0; ///< step of lastExcess
