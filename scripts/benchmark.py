@@ -61,7 +61,7 @@ def way(knob, n, *values, **more): return [(knob, {}, {"steps": n, knob: value, 
 def specimen(knob, n, *values): return [(knob, value if isinstance(value, dict) else {knob: value}, {"steps": n}) for value in values]
 def layers(unit, mortar): return {"unitSize": unit, "mortarSize": mortar}
 
-blocks = { # a key that a scenario does not have (yet) is in the table as failed
+blocks = { # a setting that a scenario refuses is in the table as failed
 	"quick": {
 		"tension": steps(2500, 5000, 10000, 20000) + way("alpha", 10000, 0.3) + way("jump", 10000, False) + way("servo", 10000, True) + specimen("size", 10000, 6e-3),
 		"shear 0.1": steps(6000),

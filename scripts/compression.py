@@ -125,13 +125,14 @@ for seed in p.seedList:
 		peak = stress.argmax()
 		elastic = (stress > 0.05 * stress[peak]) & (stress < 0.33 * stress[peak]) & (np.arange(len(stress)) < peak)
 		run.add('compressive_strength', 'MPa', stress[peak] / 1e6, 27.5, 'Oliveira 2003')
-		run.add('youngs_modulus', 'MPa', np.polyfit(strain[elastic], stress[elastic], 1)[0] / 1e6, 4100, 'Oliveira 2003')
+		slope = lambda column: np.polyfit(strain[elastic], column[elastic], 1)[0] if elastic.sum() > 1 else np.nan
+		run.add('youngs_modulus', 'MPa', slope(stress) / 1e6, 4100, 'Oliveira 2003')
 		run.add('strain_at_peak', '1', strain[peak])
 		run.add('lateral_strain_at_peak', '1', lateral[peak])
-		run.add('lateral_by_vertical_strain', '1', np.polyfit(strain[elastic], lateral[elastic], 1)[0])
+		run.add('lateral_by_vertical_strain', '1', slope(lateral))
 		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
 		run.add('first_crack_height', 'mm', cracks.first[0][1] * 1e3)
-		run.add('first_crack_in_mortar', '1', cracks.first[1] != 'unit-unit') # a mean over seeds is a share
+		run.add('first_crack_in_mortar', '1', cracks.first[1] != 'unit-unit' if cracks.first[1] else np.nan) # a mean over seeds is a share
 		run.add('cracks_at_peak', '1', broken[peak])
 		for pair, counts in atPeak.items():
 			run.add('cracks_at_peak_' + pair, '1', sum(counts.values()))

@@ -8,7 +8,8 @@ top edge by its area, displacement the mean slip across the mortar layer.
 	scripts/run.sh shear [sigma=0.1e6|0.5e6|1e6] [key=value ...]        about 8 s a seed
 
 Expected: peak 0.87 + 1.01 sigma, residual 0.73 sigma (N/mm2): the experiment's cohesion, friction and residual friction.
-Size means sqrt(mean area) unless sizeMeaning=edge. Loading starts at the first crack (jump) and is a quarter as fast as said (approach) until the peak is passed.
+Size means sqrt(mean area) unless sizeMeaning=edge. Loading starts at the first crack (jump) and is a quarter as fast as said (approach) until the peak is passed;
+servo=true lets the unbalanced force set the speed instead.
 halfRate=true repeats every run at half the loading rate and reports the change of the peak.
 """
 from math import radians
@@ -73,7 +74,7 @@ def shear(seed, steps, label):
 	def record():
 		history.append((slip(), model.groupForce('shear') / area, uplift(), cracks.look(), model.unbalancedRatio(floor=floor)))
 		stress, broken = history[-1][1], history[-1][3]
-		if not p.servo: approach(stress, broken)
+		if approach: approach(stress, broken)
 		stop(model.groupTravelled('shear'), stress, broken)
 		progress(int(steps * model.groupTravelled('shear') / p.stroke))
 
@@ -95,11 +96,12 @@ def shear(seed, steps, label):
 		O.run(1, True)
 		if not p.jump: loading.settle(model, floor=floor)
 		model.setTarget('shear', velocity, rampTime=0 if p.jump else pressSteps * dt)
-		approach, stop = loading.Approach(model, 'shear', p.approach), loading.Stop(displacement=p.stroke)
+		approach = None if p.servo else loading.Approach(model, 'shear', p.approach) # one of them sets the speed
+		stop = loading.Stop(displacement=p.stroke)
 		if p.jump:
 			model.elasticJump()
 			record()
-		O.engines += [PyRunner(command='record()', iterPeriod=max(1, steps // 400))]
+		O.engines += [PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
 		O.run()
 		O.wait()
 	return model, np.array(history).T, cracks
@@ -120,8 +122,7 @@ for seed in p.seedList:
 		run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
 		run.add('first_crack_place', 'mm', cracks.first[0][0] * 1e3) # from the left end
 		run.add('cracks_at_peak', '1', broken[peak])
-		areas = {pair: sum(modes.values()) for pair, modes in cracks.crackedAreas().items()}
-		run.add('crack_share_unit-mortar', '1', areas['unit-mortar'] / sum(areas.values()))
+		run.add('crack_share_unit-mortar', '1', cracks.share('unit-mortar'))
 		run.add('uplift', 'mm', uplift[-1] * 1e3)
 		run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, uplift_mm=1e3 * uplift, broken=broken)
 		run.model(model, steps=O.iter, **engineCosts(model, O.iter))

@@ -45,17 +45,18 @@ class Cracks:
 		a, b = (np.asarray(model.reference)[np.asarray(model.segmentNodes)[:, end]] for end in (0, 1))
 		along = np.abs(b - a)
 		self.steep = (along[:, 1] > np.tan(np.pi / 3) * along[:, 0]).repeat(2)
-		self.first = None
+		self.first = (math.nan, math.nan), ""
 
 	def _broken(self):
 		status = np.asarray(self.model.pointStatus)
 		return (status == brokenInTension) | (status == brokenInShear)
 
 	def look(self):
-		"""The number of broken contact points now. The first time that there are any, `first` becomes (place [m], joint type) of one of them."""
+		"""The number of broken contact points now. The first time that there are any, `first` becomes (place [m], joint type) of one of
+		them; before, the place is NaN and the type empty."""
 		broken = self._broken()
 		count = np.count_nonzero(broken)
-		if count and self.first is None:
+		if count and not self.first[1]:
 			point = np.flatnonzero(broken)[0]
 			self.first = tuple(np.asarray(self.model.contactPositions())[point]), self.pairs[point]
 		return count
@@ -63,21 +64,20 @@ class Cracks:
 	def counts(self):
 		"""Broken contact points by joint type and mode: {"unit-mortar": {"tension": 12, "shear": 3}, ...}, in alphabetical order.
 		Every joint type that was bonded is there, also with zeros."""
-		return self._sums(np.ones(len(self.pairs), dtype=int))
+		status = np.asarray(self.model.pointStatus)
+		return {pair: {mode: np.count_nonzero((self.pairs == pair) & (status == value)) for mode, value in modes.items()} for pair in self.bonded}
 
-	def crackedAreas(self):
-		"""The same by cracked area [m2] instead of number: short edges, which break early and often, do not count more than they are."""
-		return self._sums(self.areas)
+	def share(self, pair):
+		"""The share of a joint type in all that is cracked, by area: short edges, which break early and often, do not count more than
+		they are. NaN without cracks."""
+		cracked = self.areas * self._broken()
+		return cracked[self.pairs == pair].sum() / cracked.sum() if cracked.any() else math.nan
 
 	def steepShare(self, pair):
 		"""The share of the cracked area of a joint type that is steeper than 60 degrees (in the reference state): a third if cracks
 		run every way alike, near 1 if the blocks split vertically. NaN without cracks."""
 		cracked = self.areas * (self._broken() & (self.pairs == pair))
 		return cracked[self.steep].sum() / cracked.sum() if cracked.any() else math.nan
-
-	def _sums(self, weights):
-		status = np.asarray(self.model.pointStatus)
-		return {pair: {mode: weights[(self.pairs == pair) & (status == value)].sum() for mode, value in modes.items()} for pair in self.bonded}
 
 
 @dataclass

@@ -19,16 +19,10 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-package = Path(__file__).parents[2] / "py" / "yadeblocks"
-with pytest.MonkeyPatch.context() as patch: # the modules without the plugin, which importing their package would load
-	bare = types.ModuleType("yadeblocks")
-	bare.__path__ = [str(package)]
-	before = {name: sys.modules.pop(name) for name in list(sys.modules) if name.partition(".")[0] == "yadeblocks"}
-	patch.setitem(sys.modules, "yadeblocks", bare)
-	from yadeblocks import export, pictures, progress, results, scenario
-for name in [name for name in sys.modules if name.startswith("yadeblocks.")]: # other tests want the real package
-	del sys.modules[name]
-sys.modules.update(before)
+import bare
+
+package = bare.package
+export, pictures, progress, results, scenario = bare.modules("export", "pictures", "progress", "results", "scenario")
 
 
 def column():
@@ -148,6 +142,27 @@ def test_crackCountsByPairAndMode():
 	assert results.Cracks(model).counts() == {"unit-mortar": {"tension": 1, "shear": 1}} # unit-platen was never bonded
 	model.pointStatus[:] = 0, 2, 2, 0
 	assert results.Cracks(model).counts() == {"platen-unit": {"tension": 0, "shear": 1}, "unit-mortar": {"tension": 0, "shear": 1}}
+
+
+def test_cracksByAreaPlaceAndDirection():
+	model = column() # areas of the points: 75, 75 between mortar and unit, 25, 25 between unit and platen
+	model.contactPositions = lambda: np.array([(1., 2.), (3., 4.), (5., 6.), (7., 8.)])
+	model.pointStatus = np.array([0, 0, 0, 0], np.uint8)
+	model.reference[7] += (-2.9e-3, 5e-3) # the unit's upper edge, from node 6 to 7, now is steep: 5 mm up on 5.9 mm, 40 degrees
+	cracks = results.Cracks(model)
+	assert cracks.look() == 0 and cracks.first[1] == "" and math.isnan(cracks.first[0][0])
+	assert math.isnan(cracks.share("unit-mortar")) and math.isnan(cracks.steepShare("unit-mortar"))
+	model.pointStatus[:] = 0, 2, 1, 0
+	assert cracks.look() == 2 and cracks.first == ((3., 4.), "unit-mortar")
+	model.segmentArea[:] = 0 # released: areas count as they were bonded
+	assert cracks.share("unit-mortar") == pytest.approx(0.75) and cracks.share("platen-unit") == pytest.approx(0.25)
+	assert cracks.steepShare("platen-unit") == 0 # 40 degrees are less than 60
+	model.reference[7] += (2.9e-3, 5e-3) # 10 mm up on 3 mm: 73 degrees
+	again = results.Cracks(model)
+	again.areas = cracks.areas
+	assert again.steepShare("platen-unit") == 1 and again.steepShare("unit-mortar") == 0
+	model.pointStatus[0] = 1 # what was first stays so
+	assert cracks.look() == 3 and cracks.first[0] == (3., 4.)
 
 
 def measured(p, peaks):

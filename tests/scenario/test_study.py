@@ -8,22 +8,15 @@ import math
 import os
 import stat
 import sys
-import types
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-package = Path(__file__).parents[2] / "py" / "yadeblocks"
-with pytest.MonkeyPatch.context() as patch: # the modules without the plugin, which importing their package would load
-	bare = types.ModuleType("yadeblocks")
-	bare.__path__ = [str(package)]
-	before = {name: sys.modules.pop(name) for name in list(sys.modules) if name.partition(".")[0] == "yadeblocks"}
-	patch.setitem(sys.modules, "yadeblocks", bare)
-	from yadeblocks import calibration, curves, jobs, packing, study, tradeoff, tradeoffpicture
-for name in [name for name in sys.modules if name.startswith("yadeblocks.")]: # other tests want the real package
-	del sys.modules[name]
-sys.modules.update(before)
+import bare
+
+package = bare.package
+calibration, curves, jobs, packing, study, tradeoff, tradeoffpicture = bare.modules("calibration", "curves", "jobs", "packing", "study", "tradeoff", "tradeoffpicture")
 
 
 # ---- curves
