@@ -98,6 +98,7 @@ def shear(seed, steps, label):
 		model.setTarget('shear', velocity, rampTime=0 if p.jump else pressSteps * dt)
 		approach = None if p.servo else loading.Approach(model, 'shear', p.approach) # one of them sets the speed
 		stop = loading.Stop(displacement=p.stroke)
+		record()
 		if p.jump:
 			model.elasticJump()
 			record()
