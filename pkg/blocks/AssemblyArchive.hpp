@@ -39,7 +39,7 @@ namespace serialization {
 
 	template <class Archive> void serialize(Archive& ar, blocks::FreeContacts& x, unsigned)
 	{
-		KEEP(all), KEEP(detectedAt), KEEP(released), KEEP(releasable), KEEP(requests), KEEP(lostFriction);
+		KEEP(all), KEEP(detectedAt), KEEP(releasable), KEEP(requests), KEEP(lostFriction);
 	}
 
 	template <class Archive> void serialize(Archive& ar, blocks::MotionGroup& x, unsigned)

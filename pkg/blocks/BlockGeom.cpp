@@ -44,6 +44,7 @@ namespace {
 		if (!geom.model) throw std::runtime_error("BlockGeom.model is empty: it is made by BlockModel.insert");
 		py::list    list;
 		if (geom.pair < 0) return list;
+		blocks::updateReleased(geom.model->assembly);
 		const auto& a    = geom.model->assembly;
 		const auto& pair = a.pairs[geom.pair];
 		for (int i = 2 * pair.first; i < 2 * pair.last; ++i)

@@ -306,6 +306,13 @@ namespace {
 #define VIEW_FIELD(use, name, Number, member, Item, field, columns, doc) \
 	.add_property(#name, py::make_function(+[](py::object self) -> py::object { return view<Number>(self, arrays(self).member, columns, Use::use, offsetof(blocks::Item, field)); }), doc)
 
+/// ... of joints: of those that are released, which no step follows, as they are now
+#define VIEW_JOINT(name, member, Item, field, columns, doc) \
+	.add_property(#name, py::make_function(+[](py::object self) -> py::object { \
+		blocks::updateReleased(arrays(self)); \
+		return view<Real>(self, arrays(self).member, columns, Use::result, offsetof(blocks::Item, field)); \
+	}), doc)
+
 	py::dict zoneQuality(const BlockModel& m)
 	{
 		if (m.assembly.zoneCount() == 0) throw std::runtime_error("BlockModel.zoneQuality: the model has no zones yet");
@@ -396,10 +403,10 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 	                VIEW_FIELD(result, segmentNodes, int, segments, Segment, node, 4, "Edge a1, b1 of the first and a2, b2 of the second block of every segment, shape (segments, 4).")
 	                VIEW_FIELD(result, segmentBlocks, int, segments, Segment, block, 2, "The two blocks of every segment, shape (segments, 2).")
 	                VIEW_FIELD(result, segmentParameters, Real, segments, Segment, s1, 4, "Where the two contact points are along the first edge, then along the second (0 at a, 1 at b), shape (segments, 4).")
-	                VIEW_FIELD(result, segmentArea, Real, segments, Segment, area, 1, "Area of each of the two contact points of every segment [m2].")
-	                VIEW_FIELD(result, normal, Real, frames, SegmentFrame, nx, 2, "Unit normals of the segments, out of the first block, shape (segments, 2).")
-	                VIEW_FIELD(result, pointOpening, Real, points, ContactPoint, opening, 1, "Openings of the contact points, two a segment [m].")
-	                VIEW_FIELD(result, pointSlip, Real, points, ContactPoint, slip, 1, "Slips of the contact points [m].")
+	                VIEW_FIELD(result, segmentArea, Real, segments, Segment, area, 1, "Area of each of the two contact points of every segment; 0 once it has broken and its edges are a free contact, which has all that they carry [m2].")
+	                VIEW_JOINT(normal, frames, SegmentFrame, nx, 2, "Unit normals of the segments, out of the first block, shape (segments, 2).")
+	                VIEW_JOINT(pointOpening, points, ContactPoint, opening, 1, "Openings of the contact points, two a segment [m].")
+	                VIEW_JOINT(pointSlip, points, ContactPoint, slip, 1, "Slips of the contact points [m].")
 	                VIEW_FIELD(result, pointSigma, Real, points, ContactPoint, sigma, 1, "Normal stresses of the contact points, tension positive [Pa].")
 	                VIEW_FIELD(result, pointTau, Real, points, ContactPoint, tau, 1, "Shear stresses of the contact points [Pa].")
 	                .add_property("pointStatus", py::make_function(+[](py::object self) -> py::object {

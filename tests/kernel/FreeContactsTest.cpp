@@ -317,7 +317,7 @@ TEST(FreeContacts, BrokenSegmentsAreReleasedWithoutAJump)
 	move(-1e-6 * normal);
 	computeAllForces(a, joint, 1, 1, false);
 	EXPECT_TRUE(a.contacts.order.empty());
-	EXPECT_TRUE(a.contacts.released.empty());
+	EXPECT_FALSE(a.segments[0].released());
 	for (int i = 0; i < 20; ++i) {
 		move(4e-7 * along);
 		updateKinematics(a, 0, 1);
@@ -334,7 +334,8 @@ TEST(FreeContacts, BrokenSegmentsAreReleasedWithoutAJump)
 	const Real energy = jointEnergy(a), scale = largestForce(a);
 	computeAllForces(a, joint, 1, 1, false);
 	ASSERT_EQ(a.contacts.order.size(), 1u);
-	EXPECT_TRUE(a.contacts.released[0]);
+	EXPECT_TRUE(a.segments[0].released());
+	EXPECT_EQ(a.points[0].tau, 0); // what it carried is the free pair's
 	for (int n = 0; n < a.nodeCount(); ++n)
 		EXPECT_LT((a.force[n] - before[n]).norm(), 1e-5 * scale);
 	EXPECT_NEAR(jointEnergy(a), energy, 1e-5 * energy);
@@ -718,7 +719,8 @@ TEST(FreeContacts, ReleasedAndIntactSegmentsShareAnInterface)
 	watchForRelease(a, 0);
 	computeAllForces(a, joint, 0, 1, true);
 	ASSERT_EQ(a.contacts.order.size(), 1u);
-	EXPECT_EQ(a.contacts.released, (std::vector<char> { 0, 1, 0 }));
+	for (int s : { 0, 1, 2 })
+		EXPECT_EQ(a.segments[s].released(), s == 1);
 	int active = 0;
 	for (const EdgePair& e : a.contacts.all[0].edges)
 		active += e.active();
@@ -854,7 +856,7 @@ TEST(FreeContacts, ContinuesFromWhatIsSaved)
 			e = kept;
 		}
 	FreeContacts kept;
-	kept.all = b.contacts.all, kept.detectedAt = b.contacts.detectedAt, kept.released = b.contacts.released, kept.releasable = b.contacts.releasable;
+	kept.all = b.contacts.all, kept.detectedAt = b.contacts.detectedAt, kept.releasable = b.contacts.releasable;
 	kept.lostFriction = b.contacts.lostFriction;
 	b.contacts        = kept;
 	b.rebuild();

@@ -166,18 +166,25 @@ void BlockAssembly::rebuildJoints()
 	const int count = int(segments.size());
 	frames.resize(count);
 	segmentForce.assign(count, { Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero() });
+	for (int i = 0; i < count; ++i)
+		frames[i] = segmentFrame(segments[i], position.data());
+	listSides();
+}
+
+void BlockAssembly::listSides()
+{
 	firstSide.assign(blockCount() + 1, 0);
 	for (const Segment& g : segments)
-		for (int block : g.block)
-			++firstSide[block + 1];
+		if (!g.released())
+			for (int block : g.block)
+				++firstSide[block + 1];
 	std::partial_sum(firstSide.begin(), firstSide.end(), firstSide.begin());
-	sides.resize(2 * count);
+	sides.resize(firstSide.back());
 	std::vector<int> next(firstSide.begin(), firstSide.end() - 1);
-	for (int i = 0; i < count; ++i) {
-		frames[i] = segmentFrame(segments[i], position.data());
-		for (int side : { 0, 1 })
-			sides[next[segments[i].block[side]]++] = 2 * i + side;
-	}
+	for (int i = 0; i < int(segments.size()); ++i)
+		if (!segments[i].released())
+			for (int side : { 0, 1 })
+				sides[next[segments[i].block[side]]++] = 2 * i + side;
 }
 
 void BlockAssembly::rebuild()

@@ -21,7 +21,9 @@ struct Segment {
 	std::array<int, 2>  block; ///< first < second
 	std::array<Real, 2> s1;    ///< where the points are along the first block's edge (0 at a1, 1 at b1)
 	std::array<Real, 2> s2;    ///< where they are along the second's
-	Real                area;  ///< of each of the two points [m2]
+	Real                area;  ///< of each of the two points; 0 once the edges are a free pair [m2]
+
+	bool released() const { return area == 0; }
 };
 
 /// The frame of a segment, turning with its hosts: n bisects the two edge normals and points out of the first block.
@@ -84,7 +86,7 @@ struct BlockAssembly {
 	std::vector<JointParams>         joints; ///< of each pair
 	std::vector<std::array<Vec2, 4>> segmentForce; ///< on a1, b1, a2, b2 [N]
 	std::vector<int>                 firstSide { 0 }; ///< block -> its range in sides
-	std::vector<int>                 sides;           ///< 2 segment + side, in the order in which a block gathers them
+	std::vector<int>                 sides;           ///< 2 segment + side, in the order in which a block gathers them; not of released segments
 
 	// ---- blocks that touch without being bonded
 	FreeContacts contacts;
@@ -114,6 +116,9 @@ struct BlockAssembly {
 
 	/// Computes again what follows from the rest: zone gradients and volumes, frames, sides, mobility. After loading.
 	void rebuild();
+
+	/// The sides of the blocks; again whenever segments have been released.
+	void listSides();
 
 	/// inertia -> mobility, with zeros where motion is prescribed.
 	void updateMobility();

@@ -10,7 +10,7 @@
 /// included; a rigid motion changes neither, so total force and moment vanish to rounding, broken or not.
 namespace blocks {
 
-inline SegmentFrame segmentFrame(const Segment& g, const Vec2* x)
+inline __attribute__((always_inline)) SegmentFrame segmentFrame(const Segment& g, const Vec2* x)
 {
 	const Vec2 e1 = x[g.node[1]] - x[g.node[0]], e2 = x[g.node[3]] - x[g.node[2]];
 	const Real inv1 = 1 / std::sqrt(e1.squaredNorm()), inv2 = 1 / std::sqrt(e2.squaredNorm());
@@ -26,7 +26,7 @@ inline SegmentFrame segmentFrame(const Segment& g, const Vec2* x)
 }
 
 /// x2 - x1 of contact point k, along n and t.
-inline Vec2 hostDistance(const Segment& g, const SegmentFrame& f, const Vec2* x, int k)
+inline __attribute__((always_inline)) Vec2 hostDistance(const Segment& g, const SegmentFrame& f, const Vec2* x, int k)
 {
 	const Vec2 d = x[g.node[2]] + g.s2[k] * (x[g.node[3]] - x[g.node[2]]) - x[g.node[0]] - g.s1[k] * (x[g.node[1]] - x[g.node[0]]);
 	return { d.x() * f.nx + d.y() * f.ny, d.y() * f.nx - d.x() * f.ny };
@@ -41,7 +41,8 @@ inline Vec2 contactPosition(const BlockAssembly& a, int i)
 	return (x[g.node[0]] + g.s1[k] * (x[g.node[1]] - x[g.node[0]]) + x[g.node[2]] + g.s2[k] * (x[g.node[3]] - x[g.node[2]])) / 2;
 }
 
-inline void updateKinematics(const Segment& g, const Vec2* x, SegmentFrame& frame, ContactPoint* two)
+/// Always inline: only then is it compiled as wide as its caller.
+inline __attribute__((always_inline)) void updateKinematics(const Segment& g, const Vec2* x, SegmentFrame& frame, ContactPoint* two)
 {
 	frame = segmentFrame(g, x);
 	for (int k = 0; k < 2; ++k) {
@@ -54,10 +55,6 @@ inline void updateKinematics(const Segment& g, const Vec2* x, SegmentFrame& fram
 /// Forces on a1, b1, a2, b2 [N].
 inline void segmentForces(const Segment& g, const SegmentFrame& f, const ContactPoint* two, std::array<Vec2, 4>& out)
 {
-	if (g.area == 0) { // released: its edges are a free pair now
-		out.fill(Vec2::Zero());
-		return;
-	}
 	Real a1x = 0, a1y = 0, b1x = 0, b1y = 0, a2x = 0, a2y = 0, b2x = 0, b2y = 0, moment = 0;
 	for (int k = 0; k < 2; ++k) {
 		const Real n = g.area * two[k].sigma, t = g.area * two[k].tau;

@@ -2,6 +2,7 @@
 #include "BlockAssembly.hpp"
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 /// AVX2 has shorter code for the same arithmetic; without fused operations the bits are the same.
 #define WIDER __attribute__((target_clones("avx2", "default")))
@@ -129,8 +130,6 @@ namespace {
 	/// A segment between bonded blocks as a pair of edges.
 	std::array<int, 2> edgesOf(const BlockAssembly& a, const Segment& g) { return { a.contacts.edgeFrom[g.node[0]], a.contacts.edgeFrom[g.node[2]] }; }
 
-	bool isReleased(const FreeContacts& f, int segment) { return !f.released.empty() && f.released[segment]; }
-
 	/// Edge pairs [sorted] that unreleased segments of two blocks occupy.
 	std::vector<std::array<int, 2>> bondedEdges(const BlockAssembly& a, const std::array<int, 2>& blocks)
 	{
@@ -139,7 +138,7 @@ namespace {
 			= std::lower_bound(a.pairs.begin(), a.pairs.end(), blocks, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
 		if (pair == a.pairs.end() || pair->block != blocks) return list;
 		for (int s = pair->first; s < pair->last; ++s)
-			if (!isReleased(a.contacts, s)) list.push_back(edgesOf(a, a.segments[s]));
+			if (!a.segments[s].released()) list.push_back(edgesOf(a, a.segments[s]));
 		std::sort(list.begin(), list.end());
 		return list;
 	}
@@ -150,9 +149,8 @@ namespace {
 		contact.allRestUntil = 0;
 		contact.restsUntil.assign(contact.edges.size(), 0);
 		contact.active.clear();
-		contact.geometry.clear();
 		contact.active.reserve(contact.edges.size()); // nothing is allocated inside a step
-		contact.geometry.reserve(contact.edges.size());
+		contact.geometry.resize(contact.edges.size());
 	}
 
 	/// Looks for the edge pairs of a contact; those that it had keep their slip.
@@ -225,31 +223,30 @@ namespace {
 		FreeContacts&    f = a.contacts;
 		std::vector<int> broken;
 		for (int s = a.pairs[pair].first; s < a.pairs[pair].last; ++s)
-			if (!isReleased(f, s) && mayRelease(a, a.joints[pair], s)) broken.push_back(s);
+			if (!a.segments[s].released() && mayRelease(a, a.joints[pair], s)) broken.push_back(s);
 		if (broken.empty()) return false;
 
 		FreeContact& contact = f.all[makeContact(a, a.pairs[pair].block)];
 		if (!(contact.joint.kn > 0)) contact.joint = a.joints[pair];
-		if (f.released.empty()) f.released.assign(a.segments.size(), 0);
+		std::vector<Real> area;
 		for (int s : broken)
-			f.released[s] = true;
+			area.push_back(std::exchange(a.segments[s].area, 0)); // from here on they carry nothing
 		detect(a, contact);
-		for (int s : broken) {
+		for (size_t i = 0; i < broken.size(); ++i) {
+			const int  s   = broken[i];
 			const auto key = edgesOf(a, a.segments[s]);
 			auto       at  = std::lower_bound(
                                 contact.edges.begin(), contact.edges.end(), key, [](const EdgePair& e, const std::array<int, 2>& k) { return e.edge < k; });
-			if (at == contact.edges.end() || at->edge != key) { // they have come far apart
-				a.segments[s].area = 0;
-				continue;
-			}
+			const bool near = at != contact.edges.end() && at->edge == key;
+			if (near) at->area = area[i];
 			for (int k : { 0, 1 }) {
-				at->slip[k]  = a.points[2 * s + k].tau / contact.joint.ks;
-				at->sigma[k] = a.points[2 * s + k].sigma;
-				at->tau[k]   = a.points[2 * s + k].tau;
+				ContactPoint& p = a.points[2 * s + k];
+				if (near) at->slip[k] = p.tau / contact.joint.ks, at->sigma[k] = p.sigma, at->tau[k] = p.tau;
+				p.sigma = p.tau = 0;
 			}
-			at->area           = a.segments[s].area;
-			a.segments[s].area = 0; // from here on the points of the segment carry nothing
+			a.segmentForce[s].fill(Vec2::Zero());
 		}
+		a.listSides();
 		return true;
 	}
 
@@ -290,7 +287,7 @@ void enableRelease(BlockAssembly& a) { a.contacts.releasable.assign(a.pairs.size
 void watchForRelease(BlockAssembly& a, int pair)
 {
 	for (int s = a.pairs[pair].first; s < a.pairs[pair].last; ++s)
-		if (!isReleased(a.contacts, s) && mayRelease(a, a.joints[pair], s)) {
+		if (!a.segments[s].released() && mayRelease(a, a.joints[pair], s)) {
 			a.contacts.releasable[pair] = true;
 			return;
 		}
@@ -405,15 +402,13 @@ WIDER void updateContact(BlockAssembly& a, int contact)
 {
 	FreeContact& c    = a.contacts.all[contact];
 	const Real   path = pathOf(a, c);
-	EdgeGeometry g;
 
 	/// Whether a pair touches, and what it is like if it does.
-	auto look = [&](int i) {
+	auto look = [&](int i, EdgeGeometry& g) {
 		EdgePair&        e = c.edges[i];
 		const FourPoints x = corners(a, e);
 		edgeGeometry(x, e.shape, g);
-		if (g.active) c.geometry.push_back(g);
-		else {
+		if (!g.active) {
 			if (e.touching || e.area > 0) { // they have parted
 				c.friction += shearEnergy(c, e);
 				e.slip = e.sigma = e.tau = { 0, 0 };
@@ -425,16 +420,18 @@ WIDER void updateContact(BlockAssembly& a, int contact)
 		return e.touching = g.active;
 	};
 
-	c.geometry.clear();
 	if (path < c.allRestUntil) { // only those that touch may have changed
-		c.active.erase(std::remove_if(c.active.begin(), c.active.end(), [&](int i) { return !look(i); }), c.active.end());
+		int kept = 0;
+		for (int i : c.active)
+			if (look(i, c.geometry[kept])) c.active[kept++] = i;
+		c.active.resize(kept);
 		return;
 	}
 	c.active.clear();
 	c.allRestUntil = std::numeric_limits<Real>::infinity();
 	for (int i = 0; i < int(c.edges.size()); ++i)
 		if (path < c.restsUntil[i]) c.allRestUntil = std::min(c.allRestUntil, c.restsUntil[i]);
-		else if (look(i)) c.active.push_back(i);
+		else if (look(i, c.geometry[c.active.size()])) c.active.push_back(i);
 }
 
 WIDER void advanceContact(BlockAssembly& a, int contact, Real dt)

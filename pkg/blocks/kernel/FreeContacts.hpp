@@ -38,7 +38,7 @@ struct FreeContact {
 	Real                      allRestUntil = 0; ///< the least of restsUntil of those that do not touch [m]
 	std::vector<int>          active;           ///< those of `edges` that touch, as of the last updateContact
 	std::vector<EdgePair>     edges;            ///< sorted by edge
-	std::vector<EdgeGeometry> geometry;         ///< of each of `active`
+	std::vector<EdgeGeometry> geometry;         ///< of each of `active`, and room for all that might be
 	std::vector<Real>         restsUntil;       ///< of each of `edges`: it does not touch before the paths of the two blocks add up to this [m]
 	Real                      friction = 0;     ///< dissipated so far [J]
 	JointParams               joint;            ///< residual values count; kn = 0 until they are known
@@ -54,7 +54,6 @@ struct FreeContacts {
 	// ---- saved
 	std::vector<FreeContact> all;              ///< an index stays valid while its contact lives
 	std::vector<Vec2>        detectedAt;       ///< positions at which the edge pairs of the node's block were last looked for [m]
-	std::vector<char>        released;         ///< segment -> its edges have become a free pair; empty before the first release
 	Real                     lostFriction = 0; ///< dissipated by contacts that are no more [J]
 
 	// ---- asked for, until the next prepareContacts

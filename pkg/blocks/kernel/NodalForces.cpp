@@ -100,14 +100,20 @@ namespace {
 __attribute__((target_clones("avx2", "default"))) void updateKinematics(BlockAssembly& a, int first, int last)
 {
 	for (int i = first; i < last; ++i)
-		updateKinematics(a.segments[i], a.position.data(), a.frames[i], &a.points[2 * i]);
+		if (!a.segments[i].released()) updateKinematics(a.segments[i], a.position.data(), a.frames[i], &a.points[2 * i]);
+}
+
+void updateReleased(BlockAssembly& a)
+{
+	for (size_t i = 0; i < a.segments.size(); ++i)
+		if (a.segments[i].released()) updateKinematics(a.segments[i], a.position.data(), a.frames[i], &a.points[2 * i]);
 }
 
 void computeJointForces(BlockAssembly& a, [[maybe_unused]] int threads)
 {
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
 	for (int i = 0; i < int(a.segments.size()); ++i)
-		segmentForces(a.segments[i], a.frames[i], &a.points[2 * i], a.segmentForce[i]);
+		if (!a.segments[i].released()) segmentForces(a.segments[i], a.frames[i], &a.points[2 * i], a.segmentForce[i]);
 }
 
 void gatherForces(BlockAssembly& a, int threads)

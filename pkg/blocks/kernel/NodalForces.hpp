@@ -5,14 +5,18 @@
 /// From joint stresses and zone strains to the unbalanced force of every grid point.
 namespace blocks {
 
-/// Opening and slip of segments [first, last).
+/// Opening and slip of segments [first, last), unless they are released.
 void updateKinematics(BlockAssembly&, int first, int last);
+
+/// Opening and slip of released segments, which no step needs.
+void updateReleased(BlockAssembly&);
 
 /// Joint stresses and states of one pair by a law: `law(params, state, opening, slip)` returns a JointStep.
 template <class Law> void advanceJoints(BlockAssembly& a, int pair, const Law& law)
 {
 	const JointParams& params = a.joints[pair];
 	for (int i = 2 * a.pairs[pair].first; i < 2 * a.pairs[pair].last; ++i) {
+		if (a.segments[i / 2].released()) continue;
 		ContactPoint&   p   = a.points[i];
 		const JointStep now = law(params, p.joint, p.opening, p.slip);
 		p.sigma             = now.sigma;

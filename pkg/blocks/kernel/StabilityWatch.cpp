@@ -89,7 +89,8 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 		lastGood.points   = a.points;
 		lastGood.groups   = a.groups;
 		lastGood.rigid    = a.rigid;
-		if (!a.contacts.order.empty()) lastGood.contacts = a.contacts, lastGood.segments = a.segments;
+		if (!a.contacts.order.empty() || !lastGood.contacts.order.empty() || lastGood.segments.size() != a.segments.size())
+			lastGood.contacts = a.contacts, lastGood.segments = a.segments;
 	}
 	if (compare) lastExcess = excess, compared = step;
 	Verdict good;
@@ -112,7 +113,9 @@ long StabilityWatch::restore(BlockAssembly& a) const
 	a.points   = lastGood.points;
 	a.groups   = lastGood.groups;
 	a.rigid    = lastGood.rigid;
-	if (!lastGood.contacts.order.empty()) a.contacts = lastGood.contacts, a.segments = lastGood.segments;
+	a.contacts = lastGood.contacts;
+	a.segments = lastGood.segments;
+	a.listSides();
 	return lastGood.step;
 }
 

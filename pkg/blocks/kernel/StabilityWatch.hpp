@@ -50,7 +50,7 @@ private:
 		std::vector<ContactPoint> points;
 		std::vector<MotionGroup>  groups;
 		std::vector<RigidBlock>   rigid;
-		FreeContacts              contacts; ///< and the segments, whose areas end with their release; if there are any contacts
+		FreeContacts              contacts; ///< and the segments, whose areas end with their release
 		std::vector<Segment>      segments;
 	};
 	State lastGood;
