@@ -25,6 +25,7 @@ void stopCounting(const char* name) { CALLGRIND_DUMP_STATS_AT(name); CALLGRIND_S
 EOF
 
 export YADEBLOCKS_PLUGIN="$PWD/build/price/libyadeblocks.so" OMP_WAIT_POLICY=passive PYTHONPATH="$PWD/py${PYTHONPATH:+:$PYTHONPATH}"
+[ -v HOME ] || export HOME=~ # YADE does not start without
 yade="$(command -v yade)"
 interpreter="$(head -1 "$yade" | sed 's/^#! *//')"
 

@@ -31,4 +31,5 @@ scripts/setup.sh > "$log" 2>&1 || { cat "$log" >&2; exit 1; }
 
 # passive: threads that wait must not eat the time of those that work
 export OMP_WAIT_POLICY=passive PYTHONPATH="$PWD/py${PYTHONPATH:+:$PYTHONPATH}"
+[ -v HOME ] || export HOME=~ # YADE does not start without
 yade -n -x -j "$threads" "scripts/$name.py" "$@"

@@ -3,4 +3,5 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh
+[ -v HOME ] || export HOME=~ # YADE does not start without
 ctest --test-dir build --output-on-failure "$@"
