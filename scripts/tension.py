@@ -46,7 +46,7 @@ cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [M
 stroke, velocity = 0.03e-3, 0.02e-3 # [m], [m/s]
 
 p = scenario.parameters(
-	{**scenario.commonParameters(size=0.0, sizeMeaning='edge', lloyd=0, alpha=0.8, steps=40000), 'case': 'TT2', 'brickZone': 8e-3, 'merge': 0.1, 'jump': True, 'servo': False, 'halfRate': False, 'vtk': True},
+	{**scenario.commonParameters(size=0.0, sizeMeaning='edge', lloyd=0, alpha=0.8, steps=40000), 'case': 'TT2', 'brickZone': 8e-3, 'merge': 0.2, 'jump': True, 'servo': False, 'halfRate': False, 'vtk': True},
 	{'case': tuple(cases), 'size': scenario.Rule(lambda s: 0 <= s < mortarHeight, 'must be positive and smaller than the mortar layer (0: of the case)'),
 	 'brickZone': scenario.positive, 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')})
 mortarJoint, unitJoint, caseSize, expectedPeak, source = cases[p.case]
