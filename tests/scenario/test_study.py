@@ -144,7 +144,7 @@ def house(tree, monkeypatch):
 	program.chmod(program.stat().st_mode | stat.S_IXUSR)
 	monkeypatch.setenv("PATH", f"{tree / 'bin'}:{os.environ['PATH']}")
 	monkeypatch.setenv("CALLS", str(tree / "calls"))
-	jobs._yade.cache_clear()
+	jobs.yadeVersion.cache_clear()
 	return tree
 
 
@@ -186,7 +186,7 @@ def test_changedYadeIsRunAnew(house, monkeypatch):
 	job = jobs.Job("tension", {"steps": 1000}, 1)
 	started(house).do([job])
 	monkeypatch.setenv("FAKE", "2")
-	jobs._yade.cache_clear()
+	jobs.yadeVersion.cache_clear()
 	assert started(house).result(job) is None
 
 
