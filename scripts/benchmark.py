@@ -278,7 +278,7 @@ def staleCalibrations(experiment):
 	known = json.loads((house / "scripts" / "calibrated.json").read_text())
 	for model in modelsOf[experiment]:
 		entry = known.get(f"{model} {experiment}")
-		if not entry: continue
+		if not entry or p.model not in ("all", model): continue
 		fit = fits(model, experiment, known)
 		reasons = calibration.changes(entry, {"targets": fit.targets, "packings": list(fit.seeds), "code": sphereCode(), "parameters": fit.parameters(entry["moved"]) if "moved" in entry else None})
 		if reasons: yield f"Stale: {model} was calibrated with other {', '.join(reasons)}; mode=calibrate experiment={experiment} model={model} does it again."
