@@ -9,7 +9,8 @@ NAME-MODE.png (error over CPU seconds, and its reading), NAME-MODE.md (table and
 
 	mode=quick      less than ten minutes on two idle cores
 	mode=full       every knob, finer packings: some hours
-	mode=calibrate  finds the micro-parameters of the spheres (model=NAME: of this one only) again and writes scripts/calibrated.json
+	mode=calibrate  goes on with the calibration of the spheres (model=NAME: of this one only) from scripts/calibrated.json, and writes it; a report says which
+	                calibrations were made with other code, targets, packings or ties than today's
 
 Errors are against the laboratory and against a slow run of the same specimen, whose own convergence is shown by one twice as fast.
 retry=true runs again what failed; jobs=1 keeps processes from slowing each other down, which shows in CPU times.
@@ -33,8 +34,8 @@ from typing import NamedTuple, Optional
 
 import pandas
 
-from yadeblocks import calibration, curves, scenario, tradeoff, tradeoffpicture
-from yadeblocks.jobs import Job, Jobs
+from yadeblocks import calibration, curves, scenario, study, tradeoff, tradeoffpicture
+from yadeblocks.jobs import Job, Jobs, yadeVersion
 
 # ---- parameters
 
@@ -180,7 +181,7 @@ def report(jobs, experiment, all):
 	for case, mine in cases.items():
 		check = next((row.reference.get(names[0]) for row in mine if row.model == "blocks" and row.knob == "half as slow"), None)
 		texts.append((case, tradeoff.reading(case, mine, check, names)))
-	lines = [f"{case}: {line}" if len(cases) > 1 else line for case, lines in texts for line in lines]
+	lines = [f"{case}: {line}" if len(cases) > 1 else line for case, lines in texts for line in lines] + list(staleCalibrations(experiment))
 	place = jobs.folder / f"{experiment}-{p.mode}"
 	pandas.DataFrame(tradeoff.asRecords(rows)).to_csv(f"{place}.csv", index=False, float_format="%.6g")
 	pandas.DataFrame(runRecords(jobs, all)).to_csv(f"{place}-runs.csv", index=False, float_format="%.6g")
@@ -205,6 +206,13 @@ class Fit:
 
 	def __init__(self, start, targets, governs, seeds, tied):
 		self.start, self.targets, self.governs, self.seeds, self.tied = start, targets, governs, seeds, tied
+
+	def parameters(self, q):
+		"""All parameters, as they are written down and run: the fifth digit moves a strength in compression by 2 %."""
+		return _short(self.tied(q))
+
+
+def _short(values): return {key: float(f"{value:.5g}") for key, value in values.items()}
 
 
 degrees = lambda tangent: math.degrees(math.atan(tangent))
@@ -234,12 +242,12 @@ def fits(model, experiment, known):
 			start, targets, governs = {"cohesion": 4.5e6, "tangent": 1.0}, {"middle": 1.375}, {"middle": "cohesion"}
 		if model == "jcfpmSmooth": # friction is needed for the residual, so the planes' cohesion has to make up for the slope: 0.95 is the best line of slope 0.73 + what bulk bonds add
 			start, targets, governs = {"cohesion": 1.5e6, "tangent": 0.73}, {"intercept": 0.95, "residual": 0.365}, {"intercept": "cohesion", "residual": "tangent"}
-		return Fit(start, targets, governs, (101,), tied)
+		return Fit(start, targets, governs, (101, 102, 103), tied)
 	def tied(q): # Tables 7 to 9: bricks 8 times as stiff as mortar with their joints, 10.7 times as strong; cohesion twice the tensile strength
 		q = {**q, "cohesion": 2 * q["tension"], "unitYoung": 8 * q["mortarYoung"], "poisson": 0.5, "unitStrength": 10.7, "friction": 17, "residualFriction": 0.1, "ductility": 2}
 		return q if model != "jcfpmSmooth" else {**q, **smoothPlanes(q, experiment), "jointTension": q["tension"], "jointCohesion": q["cohesion"], "jointFriction": 15}
 	return Fit({"mortarYoung": 2.3e9, "tension": 1.7e6}, {"compressive_strength": 27.5, "youngs_modulus": 4100},
-		{"compressive_strength": "tension", "youngs_modulus": "mortarYoung"}, (101, 102), tied)
+		{"compressive_strength": "tension", "youngs_modulus": "mortarYoung"}, tuple(range(101, 111)), tied) # packings differ by a sixth
 
 
 def evaluate(jobs, model, experiment, parameters, seeds):
@@ -260,17 +268,35 @@ def evaluate(jobs, model, experiment, parameters, seeds):
 	return {"intercept": my - slope * mx, "slope": slope, "middle": peaks[1], "residual": means[1]["residual_shear_stress"]}
 
 
+def sphereCode():
+	"""What a calibration depends on besides its Fit: YADE and the code of the spheres' runs, whatever its comments."""
+	parts = [house / "scripts" / "spheres.py", *(house / "py" / "yadeblocks" / f"{name}.py" for name in ("packing", "loading", "curves"))]
+	return study.fingerprint((), yadeVersion(), *map(study.meaning, parts))[:16]
+
+
+def staleCalibrations(experiment):
+	"""A line for each model whose calibration was made with other code, targets, packings or ties than today's."""
+	known = json.loads((house / "scripts" / "calibrated.json").read_text())
+	for model in modelsOf[experiment]:
+		entry = known.get(f"{model} {experiment}")
+		if not entry or p.model not in ("all", model): continue
+		fit = fits(model, experiment, known)
+		reasons = calibration.changes(entry, {"targets": fit.targets, "packings": list(fit.seeds), "code": sphereCode(), "parameters": fit.parameters(entry["moved"]) if "moved" in entry else None})
+		if reasons: yield f"Stale: {model} was calibrated with other {', '.join(reasons)}; mode=calibrate experiment={experiment} model={model} does it again."
+
+
 def calibrateAll(jobs):
 	path = house / "scripts" / "calibrated.json"
 	known = json.loads(path.read_text())
 	for experiment in experiments:
 		for model in modelsOf[experiment] if p.model == "all" else (p.model,):
-			fit = fits(model, experiment, known)
-			found = calibration.calibrate(lambda q: evaluate(jobs, model, experiment, fit.tied(q), fit.seeds), fit.start, fit.targets, fit.governs, tolerance=0.03, rounds=4)
-			runs = found.rounds * len(fit.seeds) * (len(sigmas) if experiment == "shear" else 1)
+			fit, before = fits(model, experiment, known), known.get(f"{model} {experiment}", {})
+			start = before.get("moved", fit.start) # to go on is shorter than to begin again
+			found = calibration.calibrate(lambda q: evaluate(jobs, model, experiment, fit.parameters(_short(q)), fit.seeds), start, fit.targets, fit.governs, tolerance=0.03, rounds=4)
+			runs = found.rounds * len(fit.seeds) * (len(sigmas) if experiment == "shear" else 1) + before.get("runs", 0)
 			known[f"{model} {experiment}"] = {
-				"parameters": {key: float(f"{value:.5g}") for key, value in fit.tied(found.parameters).items()}, "targets": fit.targets, "reached": {name: round(value, 4) for name, value in found.measured.items()},
-				"rounds": found.rounds, "runs": runs, "packings": list(fit.seeds)}
+				"parameters": fit.parameters(_short(found.parameters)), "moved": _short(found.parameters), "targets": fit.targets, "reached": {name: round(value, 4) for name, value in found.measured.items()},
+				"rounds": found.rounds + before.get("rounds", 0), "runs": runs, "packings": list(fit.seeds), "code": sphereCode()}
 			path.write_text(json.dumps(known, indent=1) + "\n")
 			print(f"{model} {experiment}: {runs} runs, reached", known[f"{model} {experiment}"]["reached"], "for", fit.targets, flush=True)
 

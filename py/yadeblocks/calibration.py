@@ -59,3 +59,8 @@ def _misfit(measured, targets):
 def calibratedParameters(path, model, experiment):
 	"""Micro-parameters of a sphere model from scripts/calibrated.json; an empty dictionary if it was not calibrated for this."""
 	return json.loads(Path(path).read_text()).get(f"{model} {experiment}", {}).get("parameters", {})
+
+
+def changes(entry, today):
+	"""Names of the settings in which a calibration that was written down differs from today's; one that it does not name differs."""
+	return [name for name, value in today.items() if entry.get(name) != value]

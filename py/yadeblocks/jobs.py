@@ -178,11 +178,11 @@ class Jobs:
 	def _code(self, script):
 		"""The hash of all that a run of this script depends on but its settings."""
 		files = study.sourcesOf(self.house / "scripts" / f"{script}.py", self.house / "py" / "yadeblocks")
-		return study.fingerprint(files + ([] if script in self.pluginFree else [self.plugin]), _yade(), _processor())
+		return study.fingerprint(files + ([] if script in self.pluginFree else [self.plugin]), yadeVersion(), _processor())
 
 
 @lru_cache(maxsize=None)
-def _yade():
+def yadeVersion():
 	return subprocess.run(["yade", "--version"], capture_output=True, text=True, stdin=subprocess.DEVNULL).stdout.split("\n")[0]
 
 

@@ -6,7 +6,9 @@ No test needs YADE; a small program of that name stands in for it where runs are
 import json
 import math
 import os
+import shutil
 import stat
+import subprocess
 import sys
 from pathlib import Path
 
@@ -125,7 +127,7 @@ words = dict(word.split('=', 1) for word in sys.argv if '=' in word)
 with open(os.environ['CALLS'], 'a') as calls: calls.write(' '.join(sys.argv[4:]) + chr(10))
 if 'refuse' in words: sys.exit('mine.refuse must not be given')
 if 'silent' in words: sys.exit()
-folder = pathlib.Path('out/tension-' + words['tag'])
+folder = pathlib.Path('out/' + pathlib.Path(sys.argv[4]).stem + '-' + words['tag'])
 folder.mkdir(parents=True)
 stress = float(words.get('strength', '0.35'))
 rows = ['seed,displacement_mm,stress_MPa'] + ['1,%g,%g' % (i / 1e4, stress * i / 100) for i in range(101)]
@@ -144,7 +146,7 @@ def house(tree, monkeypatch):
 	program.chmod(program.stat().st_mode | stat.S_IXUSR)
 	monkeypatch.setenv("PATH", f"{tree / 'bin'}:{os.environ['PATH']}")
 	monkeypatch.setenv("CALLS", str(tree / "calls"))
-	jobs._yade.cache_clear()
+	jobs.yadeVersion.cache_clear()
 	return tree
 
 
@@ -186,7 +188,7 @@ def test_changedYadeIsRunAnew(house, monkeypatch):
 	job = jobs.Job("tension", {"steps": 1000}, 1)
 	started(house).do([job])
 	monkeypatch.setenv("FAKE", "2")
-	jobs._yade.cache_clear()
+	jobs.yadeVersion.cache_clear()
 	assert started(house).result(job) is None
 
 
@@ -326,6 +328,51 @@ def test_calibrationSurvivesNothing():
 	asked = []
 	found = calibration.calibrate(lambda q: (asked.append(dict(q)), next(answers))[1], {"tension": 1.0}, {"peak": 1.0}, {"peak": "tension"}, rounds=5)
 	assert [q["tension"] for q in asked] == [1, 2, 4] and found.rounds == 3
+
+
+@pytest.mark.parametrize("text, same", [("\"\"\"Other words.\"\"\"\nsteps = dict(a = 1)  # and a remark\n", True), ("\"\"\"Words.\"\"\"\nsteps = dict(a=2)\n", False)])
+def test_meaningIsWithoutComments(tmp_path, text, same):
+	a, b = tmp_path / "a.py", tmp_path / "b.py"
+	a.write_text('"""Words."""\nsteps = dict(a=1)\n'), b.write_text(text)
+	assert (study.meaning(a) == study.meaning(b)) == same
+
+
+def test_changesOfACalibration():
+	entry = {"targets": {"peak": 0.35}, "packings": [101], "code": "ab"}
+	assert calibration.changes(entry, {**entry}) == []
+	assert calibration.changes(entry, {"targets": {"peak": 0.43}, "packings": [101], "code": "cd"}) == ["targets", "code"]
+	assert calibration.changes({}, {"code": "ab"}) == ["code"]
+
+
+@pytest.fixture
+def study5(house):
+	"""The benchmark itself, with the imitation of YADE."""
+	for folder in ("scripts", "py"):
+		shutil.rmtree(house / folder)
+		shutil.copytree(package.parents[1] / folder, house / folder)
+
+	def benchmark(mode):
+		command = [sys.executable, house / "scripts/benchmark.py", "experiment=tension", "model=jcfpm", "seeds=1", f"mode={mode}"]
+		return subprocess.run(command, env={**os.environ, "YADEBLOCKS_PLUGIN": str(house / "plugin.so")}, capture_output=True, text=True, check=True).stdout
+
+	benchmark.file = lambda name: house / name
+	return benchmark
+
+
+def test_staleCalibrationIsTold(study5):
+	study5("calibrate")
+	known = json.loads(study5.file("scripts/calibrated.json").read_text())["jcfpm tension"]
+	assert known["parameters"]["tension"] == known["moved"]["tension"] and known["packings"] == [101, 102, 103]
+	assert "Stale" not in study5("quick")
+	for name, old, new, said in [("scripts/spheres.py", "coarser=2, steps=20000", "coarser=2, steps=10000", "code"), ("py/yadeblocks/packing.py", "solidity = 0.86", "solidity = 0.9", "code"),
+		("scripts/benchmark.py", "22 * q", "21 * q", "parameters"), ("py/yadeblocks/curves.py", "(0.35, ", "(0.36, ", "targets, code")]:
+		path = study5.file(name)
+		before = path.read_text()
+		assert before.count(old) == 1
+		path.write_text(before.replace(old, new))
+		line = f"Stale: jcfpm was calibrated with other {said};"
+		assert line in study5("quick") and line in study5.file("out/benchmark/tension-quick.md").read_text()
+		path.write_text(before)
 
 
 # ---- packings
