@@ -60,12 +60,18 @@ void BlockTimeStepper::adjust(Scene* scene)
 	BlockModel& model = modelOf(scene);
 	model.throwComplaint();
 	noteFreedom(scene, model);
+	if (modelOf.changed) {
+		brought   = 0;
+		scalingId = -1;
+	}
+	if (scene->trackEnergy && scalingId < 0) scene->energy->set(brought, "blockScaling", scalingId);
 	if (model.stiffnessVersion() == doneVersion && scene->dt == doneDt && safety == doneSafety && quasiStatic == doneQuasiStatic) return;
 	blocks::require(safety > 0 && safety <= 0.95, "BlockTimeStepper.safety must lie in (0, 0.95]", safety);
 
 	const auto& stiffness = model.stiffness();
 	stableStep            = std::min(
                 blocks::stableTimeStep(model.assembly, stiffness, model.assembly.mass), blocks::rigidTimeStep(model.assembly, stiffness, blocks::Masses::actual));
+	const Real kinetic = scene->trackEnergy ? blocks::gridPointsKineticEnergy(model.assembly) : 0;
 	if (quasiStatic) {
 		blocks::require(scene->dt > 0 && std::isfinite(scene->dt), "O.dt must be positive and finite [s]", scene->dt);
 		blocks::scaleInertia(model.assembly, stiffness, scene->dt, safety);
@@ -76,6 +82,7 @@ void BlockTimeStepper::adjust(Scene* scene)
 		model.assembly.updateMobility();
 		blocks::restoreRigidInertia(model.assembly);
 	}
+	if (scene->trackEnergy) scene->energy->set(brought -= blocks::gridPointsKineticEnergy(model.assembly) - kinetic, "blockScaling", scalingId);
 	writeMasses(scene, model);
 	doneVersion     = model.stiffnessVersion();
 	doneDt          = scene->dt;
@@ -200,18 +207,43 @@ void BlockIntegrator::advance()
 	writeCentroids(scene, model);
 }
 
+/// The engine that books what joints dissipate.
+static BlockForces* forcesOf(Scene* scene)
+{
+	for (const auto& engine : scene->engines)
+		if (auto* forces = dynamic_cast<BlockForces*>(engine.get())) return forces;
+	return nullptr;
+}
+
+void BlockIntegrator::keepAccounts()
+{
+	const BlockForces* forces = forcesOf(scene);
+	good                      = { dissipated, pending, forces ? forces->dissipation : blocks::JointDissipation() };
+}
+
+void BlockIntegrator::restoreAccounts()
+{
+	dissipated = good.dissipated;
+	pending    = good.pending;
+	if (BlockForces* forces = forcesOf(scene)) forces->dissipation = good.joints;
+}
+
 void BlockIntegrator::watchStability(BlockModel& model)
 {
 	const long step    = scene->iter;
 	const auto verdict = watch.look(model.assembly, step, scene->time, scene->dt);
 	if (!verdict.warning.empty()) LOG_WARN("step " << step << ": " << verdict.warning);
-	if (verdict.stable) return;
+	if (verdict.stable) {
+		if (scene->trackEnergy && watch.goodStep() == step) keepAccounts();
+		return;
+	}
 
 	string    message = "unstable at step " + std::to_string(step) + ", block " + std::to_string(verdict.block) + ": " + verdict.reason;
 	const long good   = watch.restore(model.assembly);
 	if (good >= 0) {
 		restoreRigidBodies(scene, model);
 		writeCentroids(scene, model);
+		if (scene->trackEnergy) restoreAccounts();
 		scene->iter = good;
 		scene->time = watch.goodTime();
 		message += "; the last good state, of step " + std::to_string(good) + ", is put back";

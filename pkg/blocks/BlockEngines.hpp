@@ -46,10 +46,12 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(BlockTimeStepper, TimeStepper,
 		"Makes the time step stable (paper, Eq. 10, with a nodal stiffness that is a bound and not an estimate). Stands behind InteractionLoop, which creates the joints whose stiffness counts. "
 		"Works only when the stiffness, the step or its own attributes have changed.\n\n"
-		"quasiStatic: ``O.dt`` is the user's and every grid point gets the mass with which its limit is O.dt/safety (gravity and loads keep the true masses). Otherwise masses are true and O.dt is set to safety times the limit.",
+		"quasiStatic: ``O.dt`` is the user's and every grid point gets the mass with which its limit is O.dt/safety (gravity and loads keep the true masses). Otherwise masses are true and O.dt is set to safety times the limit. "
+		"With ``O.trackEnergy``, ``O.energy`` gets 'blockScaling': minus the kinetic energy that grid points' masses have brought which were scaled anew while they moved (rigid blocks keep their momentum, and what they lose is 'blockDamping').",
 		((Real, safety, 0.7, , "Time step as a fraction of the stable one; at most 0.95/sqrt(1+alpha) with local damping, else 0.95."))
 		((bool, quasiStatic, true, , "Scaled masses at the user's O.dt instead of the largest stable O.dt at true masses."))
 		((Real, stableStep, 0, Attr::readonly, "Limit of the time step with the true masses, as computed last [s]."))
+		((Real, brought, 0, Attr::hidden, "blockScaling [J]."))
 		,
 		/*ctor*/,
 		/*py*/
@@ -62,6 +64,7 @@ private:
 	long         doneVersion = 0;
 	Real         doneDt = 0, doneSafety = 0;
 	bool         doneQuasiStatic = false;
+	int          scalingId       = -1;
 };
 REGISTER_SERIALIZABLE(BlockTimeStepper);
 
@@ -100,7 +103,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS(BlockIntegrator, GlobalEngine,
 		"Moves the grid points by central differences (paper, Eqs. 4-9), with damping and prescribed motion, and writes the centroids to ``state.pos``. Grid points of rigid blocks follow their bodies, which NewtonIntegrator has moved. "
 		"A run that turns unstable (a number that is none, or energy that nobody put in) is stopped with a message that names step and block; the last good state is put back and saved. "
-		"With ``O.trackEnergy``, ``O.energy`` gets 'blockKinetic', 'blockZones', 'blockJoints', 'blockDamping' and, negative, 'blockWork' (loads, driven grid points, and what acts on rigid blocks from outside): they sum to zero with the two of BlockForces, less what was there at the start. "
+		"With ``O.trackEnergy``, ``O.energy`` gets 'blockKinetic', 'blockZones', 'blockJoints', 'blockDamping' and, negative, 'blockWork' (loads, driven grid points, and what acts on rigid blocks from outside): they sum to zero with those of BlockTimeStepper and BlockForces, less what was there at the start. "
 		"Rigid blocks are in 'blockKinetic' and NewtonIntegrator's damping of them in 'blockDamping'; what NewtonIntegrator itself writes to ``O.energy`` ('kinetic', 'nonviscDamp') is the same once more, to be left out of the sum.",
 		((string, damping, "local", Attr::triggerPostLoad, "'local': a force of alpha |F| against the motion of each degree of freedom; 'adaptive': the paper's viscous damping, adjusted to the kinetic energy; 'none'."))
 		((Real, alpha, 0.3, Attr::triggerPostLoad, "Coefficient of the local damping, in [0, 1)."))
@@ -116,13 +119,21 @@ public:
 private:
 	void checkStep(BlockModel&);
 	void watchStability(BlockModel&);
+	void keepAccounts();
+	void restoreAccounts();
 
 	struct Settings {
 		string damping     = "local";
 		Real   alpha       = 0.3;
 		int    watchPeriod = 100;
 	};
+	/// What goes with the last good state, with O.trackEnergy.
+	struct Accounts {
+		Real                     dissipated = 0, pending = 0;
+		blocks::JointDissipation joints;
+	};
 	Settings               accepted;
+	Accounts               good;
 	ModelOfScene           modelOf;
 	blocks::Damping        law;
 	blocks::StabilityWatch watch;

@@ -29,7 +29,7 @@ def test_aSavedRunContinuesWithTheSameBits(ending, damping, trackEnergy, tmp_pat
 	assert before == broken(model()) < broken(whole) and O.iter == steps
 	O.run(400, True)
 	assert O.iter == steps + 400 and differences(state(model()), expected) == []
-	assert len(expected['energy']) == (7 if trackEnergy else 0)
+	assert len(expected['energy']) == (8 if trackEnergy else 0)
 
 
 def test_savedBeforeTheFirstStep(tmp_path):

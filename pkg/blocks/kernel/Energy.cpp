@@ -37,11 +37,17 @@ Real jointEnergy(const BlockAssembly& a)
 	return sum + (a.contacts.order.empty() ? 0 : contactEnergy(a));
 }
 
-Real kineticEnergy(const BlockAssembly& a)
+Real gridPointsKineticEnergy(const BlockAssembly& a)
 {
 	Real sum = 0;
 	for (int n = 0; n < a.nodeCount(); ++n)
 		sum += a.inertia[n] * a.velocity[n].squaredNorm() / 2;
+	return sum;
+}
+
+Real kineticEnergy(const BlockAssembly& a)
+{
+	Real sum = gridPointsKineticEnergy(a);
 	for (const RigidBlock& r : a.rigid)
 		sum += (r.inertia * r.velocity.head<2>().squaredNorm() + r.rotaryInertia * r.velocity[2] * r.velocity[2]) / 2;
 	return sum;

@@ -8,6 +8,7 @@ namespace blocks {
 Real zoneEnergy(const BlockAssembly&);    ///< elastic energy of the zones
 Real jointEnergy(const BlockAssembly&);   ///< elastic energy of the joints' springs and of free contacts
 Real kineticEnergy(const BlockAssembly&); ///< from the velocities at the last half step and the inertia
+Real gridPointsKineticEnergy(const BlockAssembly&); ///< ... without that of rigid blocks
 Real loadWork(const BlockAssembly&);      ///< of the dead loads since the reference state
 Real groupWork(const BlockAssembly&);     ///< of driven and pushed degrees of freedom
 Real rigidWork(const BlockAssembly&);     ///< of what moves rigid blocks, apart from their neighbours and dead loads

@@ -40,6 +40,7 @@ public:
 	/// Puts the last good state back; the step it belongs to, or -1 if there was none.
 	long restore(BlockAssembly&) const;
 	Real goodTime() const { return lastGood.time; }
+	long goodStep() const { return lastGood.step; }
 	bool started() const { return begun; }
 
 private:
