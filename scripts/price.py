@@ -28,7 +28,7 @@ from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 p = scenario.parameters({'part': '', 'scene': 'tension', 'quick': True},
 	{'part': scenario.Rule(lambda part: part in ('states', 'times', 'counts', 'threads', 'table'), 'is set by scripts/price.sh, which starts this script'), 'scene': ('tension', 'compression', 'crushed')})
 folder = Path('out/price')
-house = Path(__file__).resolve().parents[1]
+house = Path(yadeblocks.__file__).resolve().parents[2] # __file__ is YADE itself
 window = 100 if p.quick else 400 # steps
 repetitions = 4 if p.quick else 12 # of every timed window
 writeEvery, lookEvery, recordEvery = 1000, 100, 50 # steps between ParaView files, looks at the stability, gauge readings
@@ -182,7 +182,7 @@ if 'BlockServo' in globals():
 if p.scene == 'crushed': rows = [row for row in rows if 'general contact' not in row.name]
 
 features = { # where their code is
-	'general contact': Feature(r'(Free|Edge|Block)Contacts?\.', r'contacts\b|->contact\b|contactsVersion|g\.area == 0'),
+	'general contact': Feature(r'(Free|Edge|Block)Contacts?\.', r'contacts\b|->contact\b|contactsVersion|released\(\)|Which::'),
 	'dilation': Feature(lines='[dD]ilation'),
 	'small strain': Feature(lines='smallStrain|Strain::small'),
 	'dead loads': Feature(lines=r'\bload\b|loadWork'),

@@ -49,6 +49,7 @@ void BlockContacts::update()
 		contactsVersion = 0;
 	}
 	if (a.contacts.releasable.size() != a.pairs.size()) blocks::enableRelease(a);
+	a.contacts.wanted = true;
 	blocks::prepareContacts(a);
 	if (a.contacts.version != contactsVersion) {
 		contactsVersion = a.contacts.version;

@@ -25,11 +25,16 @@ bool Ig2_Block_Block_BlockGeom::go(
 		geom->model       = static_cast<const Block*>(shape1.get())->model;
 	}
 	blocks::BlockAssembly& a = geom->model->assembly;
+	if (!a.contacts.wanted) { // bonds are all there is
+		if (geom->pair >= 0) blocks::updateKinematics(a, a.pairs[geom->pair].first, a.pairs[geom->pair].last);
+		else geom->model->complain("a collider has found blocks " + std::to_string(index(shape1)) + " and " + std::to_string(index(shape2)) + " near each other: O.engines needs BlockContacts in front of it, which makes their contacts");
+		return geom->pair >= 0;
+	}
 	if (geom->contactsVersion != a.contacts.version) {
 		geom->contactsVersion = a.contacts.version;
 		geom->contact         = a.contacts.order.empty() ? -1 : blocks::contactOf(a, index(shape1), index(shape2), geom->contact);
 	}
-	if (geom->pair >= 0) blocks::updateKinematics(a, a.pairs[geom->pair].first, a.pairs[geom->pair].last);
+	if (geom->pair >= 0) blocks::updateKinematics(a, a.pairs[geom->pair].first, a.pairs[geom->pair].last, blocks::Which::unreleased);
 	if (geom->contact >= 0) blocks::updateContact(a, geom->contact);
 	else if (geom->pair < 0 && !interaction->isReal()) {
 		if (scene->iter % requestInterval == 0) blocks::requestContact(a, index(shape1), index(shape2));
@@ -44,9 +49,9 @@ namespace {
 		if (!geom.model) throw std::runtime_error("BlockGeom.model is empty: it is made by BlockModel.insert");
 		py::list    list;
 		if (geom.pair < 0) return list;
-		blocks::updateReleased(geom.model->assembly);
-		const auto& a    = geom.model->assembly;
+		auto&       a    = geom.model->assembly;
 		const auto& pair = a.pairs[geom.pair];
+		blocks::updateKinematics(a, pair.first, pair.last, blocks::Which::released);
 		for (int i = 2 * pair.first; i < 2 * pair.last; ++i)
 			list.append(value(a, i));
 		return list;

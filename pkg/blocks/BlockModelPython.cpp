@@ -309,7 +309,7 @@ namespace {
 /// ... of joints: of those that are released, which no step follows, as they are now
 #define VIEW_JOINT(name, member, Item, field, columns, doc) \
 	.add_property(#name, py::make_function(+[](py::object self) -> py::object { \
-		blocks::updateReleased(arrays(self)); \
+		blocks::updateKinematics(arrays(self), 0, int(arrays(self).segments.size()), blocks::Which::released); \
 		return view<Real>(self, arrays(self).member, columns, Use::result, offsetof(blocks::Item, field)); \
 	}), doc)
 

@@ -105,9 +105,13 @@ bool Law2_BlockGeom_JointPhys_MohrCoulomb::go(shared_ptr<IGeom>& geom, shared_pt
 {
 	const auto* g = static_cast<const BlockGeom*>(geom.get());
 	auto&       a = g->model->assembly;
+	if (!a.contacts.wanted) { // bonds are all there is
+		if (g->pair >= 0) blocks::advanceJoints(a, g->pair, blocks::advance);
+		return g->pair >= 0;
+	}
 	if (g->pair >= 0) {
-		blocks::advanceJoints(a, g->pair, blocks::advance);
-		if (!a.contacts.releasable.empty()) blocks::watchForRelease(a, g->pair);
+		blocks::advanceJoints(a, g->pair, blocks::advance, blocks::Which::unreleased);
+		blocks::watchForRelease(a, g->pair);
 	}
 	if (g->contact >= 0) blocks::advanceContact(a, g->contact, scene->dt);
 	return g->pair >= 0 || g->contact >= 0; // blocks that have parted are no more

@@ -108,3 +108,11 @@ def test_blocksThatPartAreForgotten():
 	O.run(5000, True)
 	assert model.position[top(model), 1].min() > 0.01
 	assert not [i for i in O.interactions if i.isReal and 3 in (i.id1, i.id2)]
+
+
+def test_aColliderWithoutBlockContactsIsRefused():
+	"""Else blocks that meet would go through each other unseen."""
+	scene(gap=1e-4)
+	O.engines = O.engines[1:]
+	with pytest.raises(RuntimeError, match='blocks 0 and 3 near each other: O.engines needs BlockContacts'):
+		O.run(5, True)

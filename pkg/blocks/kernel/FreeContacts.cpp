@@ -551,6 +551,7 @@ void rebuildContacts(BlockAssembly& a)
 {
 	FreeContacts& f = a.contacts;
 	if (f.all.empty()) return;
+	f.wanted = true;
 	followMotion(a);
 	computeShapes(a);
 	sortContacts(a);

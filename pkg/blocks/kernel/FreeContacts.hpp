@@ -68,6 +68,7 @@ struct FreeContacts {
 	std::vector<Real> depthLimit, meanEdge;  ///< of blocks [m]
 	std::vector<Real> nearUntil;             ///< of blocks: no vertex is mayMove from detectedAt before the path is this long [m]
 
+	bool wanted  = false; ///< whether anybody looks for free contacts (BlockContacts)
 	long version = 0; ///< grows whenever nodalStiffness may have changed
 
 	static constexpr Real mayMove = 0.016; ///< of a mean edge, until edge pairs are looked for again

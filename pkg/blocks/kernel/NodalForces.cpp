@@ -97,23 +97,21 @@ namespace {
 
 } // namespace
 
-__attribute__((target_clones("avx2", "default"))) void updateKinematics(BlockAssembly& a, int first, int last)
+__attribute__((target_clones("avx2", "default"))) void updateKinematics(BlockAssembly& a, int first, int last, Which which)
 {
-	for (int i = first; i < last; ++i)
-		if (!a.segments[i].released()) updateKinematics(a.segments[i], a.position.data(), a.frames[i], &a.points[2 * i]);
-}
-
-void updateReleased(BlockAssembly& a)
-{
-	for (size_t i = 0; i < a.segments.size(); ++i)
-		if (a.segments[i].released()) updateKinematics(a.segments[i], a.position.data(), a.frames[i], &a.points[2 * i]);
+	if (which == Which::all)
+		for (int i = first; i < last; ++i)
+			updateKinematics(a.segments[i], a.position.data(), a.frames[i], &a.points[2 * i]);
+	else
+		for (int i = first; i < last; ++i)
+			if (a.segments[i].released() == (which == Which::released)) updateKinematics(a.segments[i], a.position.data(), a.frames[i], &a.points[2 * i]);
 }
 
 void computeJointForces(BlockAssembly& a, [[maybe_unused]] int threads)
 {
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
 	for (int i = 0; i < int(a.segments.size()); ++i)
-		if (!a.segments[i].released()) segmentForces(a.segments[i], a.frames[i], &a.points[2 * i], a.segmentForce[i]);
+		segmentForces(a.segments[i], a.frames[i], &a.points[2 * i], a.segmentForce[i]);
 }
 
 void gatherForces(BlockAssembly& a, int threads)

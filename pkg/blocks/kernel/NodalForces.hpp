@@ -5,18 +5,18 @@
 /// From joint stresses and zone strains to the unbalanced force of every grid point.
 namespace blocks {
 
-/// Opening and slip of segments [first, last), unless they are released.
-void updateKinematics(BlockAssembly&, int first, int last);
+/// Scenes without free contacts do not ask which segments are released.
+enum class Which { all, unreleased, released };
 
-/// Opening and slip of released segments, which no step needs.
-void updateReleased(BlockAssembly&);
+/// Opening and slip of segments [first, last). No step needs those of released ones.
+void updateKinematics(BlockAssembly&, int first, int last, Which = Which::all);
 
 /// Joint stresses and states of one pair by a law: `law(params, state, opening, slip)` returns a JointStep.
-template <class Law> void advanceJoints(BlockAssembly& a, int pair, const Law& law)
+template <class Law> inline void advanceJoints(BlockAssembly& a, int pair, const Law& law, Which which = Which::all)
 {
 	const JointParams& params = a.joints[pair];
 	for (int i = 2 * a.pairs[pair].first; i < 2 * a.pairs[pair].last; ++i) {
-		if (a.segments[i / 2].released()) continue;
+		if (which == Which::unreleased && a.segments[i / 2].released()) continue;
 		ContactPoint&   p   = a.points[i];
 		const JointStep now = law(params, p.joint, p.opening, p.slip);
 		p.sigma             = now.sigma;
