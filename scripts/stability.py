@@ -525,17 +525,19 @@ def press(look, contact, overlaps, kn=young / 2):
 	return texts, ends
 
 
-# Squares of 0.1 m, zones of 0.05 m: 10 % is 0.005 m. Blocks that have entered each other by half, 0.05 m, are refused. A free contact of such squares
-# pushes with at most kn x 0.008 m; a greater load drives one through the other.
-for contact, tooMuch in (False, 0.06), (True, 0.011):
+# Squares of 0.1 m, zones of 0.05 m: 10 % is 0.005 m. A free contact of such squares pushes with at most kn x 0.008 m; a greater load
+# drives one through the other.
+for contact, overlaps, expected, stopped in (
+	(False, [0.002, 0.003, 0.0045, 0.0055], 'quiet at 4 % of a zone, one warning with blocks and numbers up to 10 %, refused beyond', 'joints overlap by'),
+	(True, [0.002, 0.003, 0.007, 0.011], 'quiet at 4 % of a zone, one warning with blocks and numbers, refused where contact would be lost', 'has gone into block')):
 
-	@case('precompression of ' + ('free contacts' if contact else 'joints'), 'quiet at 8 % of a zone, one warning with blocks and numbers beyond 10 %, refused far beyond')
-	def precompression(look, contact=contact, tooMuch=tooMuch):
-		(quiet, warned, again, _), ends = press(look, contact, [0.004, 0.006, 0.007, tooMuch])
-		look.true('overlap' not in quiet and ends[0][0] == 'silent', 'quiet at 8 %')
+	@case('precompression of ' + ('free contacts' if contact else 'joints'), expected)
+	def precompression(look, contact=contact, overlaps=overlaps, stopped=stopped):
+		(quiet, warned, again, _), ends = press(look, contact, overlaps)
+		look.true('overlap' not in quiet and ends[0][0] == 'silent', 'quiet at 4 %')
 		look.true(warned.count('overlap') == 1 and 'blocks 0 and 1' in warned and ends[1][0] == 'silent', 'warned: "%s"' % warned.strip().split(': ', 3)[-1])
 		look.true('overlap' not in again and ends[2][0] == 'silent', 'only once')
-		look.true(ends[3][0] == 'detected' and 'has gone into block' in ends[3][1], 'stopped: "%s"' % ends[3][1].split(';')[0])
+		look.true(ends[3][0] == 'detected' and stopped in ends[3][1], 'stopped: "%s"' % ends[3][1].split(';')[0])
 
 
 @case('contact too soft', 'a block that would go through another unseen is refused')

@@ -72,17 +72,21 @@ void OverlapWatch::look(const BlockAssembly& a)
                         if (entered(a, block[side], block[1 - side]) && entries++ == 0) through = { block[side], block[1 - side] };
 	};
 
+	Real closed = 0, shares = 0; // areas of joints, and times their shares [m2]
 	for (const Pair& pair : a.pairs) {
 		Overlap worst;
 		for (int i = pair.first; i < pair.last; ++i) {
 			const Segment& g     = a.segments[i];
 			const Real     depth = -std::min(a.points[2 * i].opening, a.points[2 * i + 1].opening);
-			if (g.area > 0 && depth > 0) // else it is a free contact by now
-				worst.raise(pair.block, depth, std::min(zoneHeight[g.node[0]], zoneHeight[g.node[2]]));
+			if (!(depth > 0) || g.released()) continue;
+			const Real height = std::min(zoneHeight[g.node[0]], zoneHeight[g.node[2]]);
+			worst.raise(pair.block, depth, height);
+			closed += g.area, shares += g.area * depth / height;
 		}
 		if (worst.share() > thin) enter(pair.block); // others need not be asked
 		if (worst.share() > joint.share()) joint = worst;
 	}
+	mean = closed > 0 ? shares / closed : 0;
 	for (int i : a.contacts.order) {
 		const FreeContact& c = a.contacts.all[i];
 		Overlap            worst;

@@ -23,13 +23,15 @@ struct Overlap {
 
 class OverlapWatch {
 public:
-	/// Overlap by height of the zones behind beyond which a joint is not thin any more.
-	static constexpr Real thin = 0.1;
+	/// Overlap by height of the zones behind beyond which a joint is not thin any more: single ones are told from half of it,
+	/// a run whose closed joints exceed it in the mean has the wrong springs.
+	static constexpr Real thin = 0.1, told = thin / 2;
 
 	/// Looks at all joints and contacts that touch, and at all zones.
 	void look(const BlockAssembly&);
 
 	Overlap            joint, contact;     ///< of bonded edges and of free ones: the greatest share
+	Real               mean = 0;           ///< share of bonded edges, over the area of those that overlap
 	std::array<int, 2> through { -1, -1 }; ///< the first block whose innermost point lies within the other one; -1: none
 	int                entries  = 0;       ///< how many pairs of that kind there are
 	int                inverted = -1;      ///< block of the first zone that has turned inside out; -1: none

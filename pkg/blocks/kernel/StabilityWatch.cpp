@@ -57,6 +57,11 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 	const char* const cure = "; joints must be stiffer or loads smaller";
 	const std::string entered = overlaps.entries == 0 ? "" : "has gone into block " + std::to_string(overlaps.through[1]) + " by more than half";
 	if (overlaps.entries > lostShare * a.blockCount()) return { false, overlaps.through[0], "it " + entered + cure };
+	if (overlaps.mean > OverlapWatch::thin) {
+		char share[16];
+		std::snprintf(share, sizeof share, "%.0f %%", 100 * overlaps.mean);
+		return { false, overlaps.joint.block[0], std::string("joints overlap by ") + share + " of the height of the zones behind in the mean, most of all " + described(overlaps.joint) + cure };
+	}
 	if (overlaps.inverted >= 0) return { false, overlaps.inverted, "a zone has turned inside out" };
 
 	Real turnover = 0;
@@ -94,9 +99,9 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 	}
 	if (compare) lastExcess = excess, compared = step;
 	Verdict good;
-	if (!warned && overlaps.thickest().share() > OverlapWatch::thin) {
+	if (!warned && overlaps.thickest().share() > OverlapWatch::told) {
 		warned       = true;
-		good.warning = described(overlaps.thickest()) + "; up to 10 % a joint may count as thin" + cure;
+		good.warning = described(overlaps.thickest()) + "; up to 10 % joints may count as thin, and if their mean is more the run is stopped" + cure;
 	}
 	if (!lossTold && overlaps.entries > 0) {
 		lossTold = true;
