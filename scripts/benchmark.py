@@ -82,8 +82,8 @@ blocks = { # a setting that a scenario refuses is in the table as failed
 			+ way("damping", 30000, "adaptive", "none") + way("jump", 10000, False) + way("servo", 5000, True) + way("servo", 20000, True) + way("servo", 20000, True, jump=False)
 			+ way("safety", 20000, 0.4, 0.85) + specimen("size", 30000, layers(15e-3, 4.5e-3), layers(7e-3, 3e-3)) + specimen("plane", 30000, "stress") + specimen("units", 30000, "plain")}}
 spheres = { # multiples of the steps and radius they were calibrated with; slow: with references of their own; packings: at most so many
-	"quick": {"steps": (1,), "radius": (1,), "stresses": ("0.5",), "slow": False, "packings": 5},
-	"full": {"steps": (0.25, 0.5, 1, 2), "radius": (1, 0.7), "stresses": ("0.1", "0.5", "1.0"), "slow": True, "packings": 1000}}
+	"quick": {"steps": (1,), "radius": (1,), "stresses": ("0.5",), "slow": False, "packings": 4, "without": [("lourenco", "shear")]}, # it takes four times as long as the others
+	"full": {"steps": (0.25, 0.5, 1, 2), "radius": (1, 0.7), "stresses": ("0.1", "0.5", "1.0"), "slow": True, "packings": 1000, "without": []}}
 radius = {"tension": 1.5e-3, "shear": 2e-3, "compression": 2.5e-3} # of the spheres in the mortar [m], as in spheres.py
 sphereSteps = {"tension": 20000, "shear": 8000, "compression": 10000} # as in spheres.py
 
@@ -111,6 +111,7 @@ def points(mode, experiment):
 		if case.split()[0] == experiment: yield from blockPoints(mode, case, lines)
 	for case in ([experiment] if experiment != "shear" else ["shear " + stress for stress in spheres[mode]["stresses"]]):
 		for model in modelsOf[experiment]:
+			if (model, experiment) in spheres[mode]["without"]: continue
 			if f"{model} {experiment}" in known: yield from spherePoints(mode, case, model, known)
 
 
