@@ -183,7 +183,7 @@ if p.scene == 'crushed': rows = [row for row in rows if 'general contact' not in
 
 features = { # where their code is
 	'general contact': Feature(r'(Free|Edge|Block)Contacts?\.', r'contacts\b|->contact\b|contactsVersion|released\(\)|Which::'),
-	'dilation': Feature(lines='[dD]ilation'),
+	'dilation': Feature(lines='[dD]ilation|uplift'),
 	'small strain': Feature(lines='smallStrain|Strain::small'),
 	'dead loads': Feature(lines=r'\bload\b|loadWork'),
 	'adaptive damping': Feature(lines='adaptive|viscous'),

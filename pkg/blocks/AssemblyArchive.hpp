@@ -19,7 +19,7 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& ar, blocks::ContactPoint& x, unsigned)
 	{
 		KEEP(opening), KEEP(slip), KEEP(sigma), KEEP(tau), KEEP(bondOpening), KEEP(bondSlip);
-		KEEP(joint.slipPlastic), KEEP(joint.slipMax);
+		KEEP(joint.slipPlastic), KEEP(joint.uplift);
 		int status = int(x.joint.status);
 		ar& make_nvp("status", status);
 		x.joint.status = blocks::Joint(status);

@@ -106,8 +106,8 @@ bool Law2_BlockGeom_JointPhys_MohrCoulomb::go(shared_ptr<IGeom>& geom, shared_pt
 	const auto* g = static_cast<const BlockGeom*>(geom.get());
 	auto&       a = g->model->assembly;
 	if (!a.contacts.wanted) { // bonds are all there is
-		if (g->pair >= 0) blocks::advanceJoints(a, g->pair, blocks::advance);
-		return g->pair >= 0;
+		blocks::advanceJoints(a, g->pair, blocks::advance);
+		return true;
 	}
 	if (g->pair >= 0) {
 		blocks::advanceJoints(a, g->pair, blocks::advance, blocks::Which::unreleased);

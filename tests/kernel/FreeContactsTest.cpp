@@ -52,9 +52,9 @@ void computeAllForces(BlockAssembly& a, const JointParams& joint, Real dt, int t
 	prepareContacts(a);
 	for (int i : a.contacts.order)
 		if (!(a.contacts.all[i].joint.kn > 0)) setContactJoint(a, i, joint);
-	updateKinematics(a, 0, int(a.segments.size()));
+	updateKinematics(a, 0, int(a.segments.size()), Which::unreleased);
 	for (int pair = 0; pair < int(a.pairs.size()); ++pair) {
-		advanceJoints(a, pair, advance);
+		advanceJoints(a, pair, advance, Which::unreleased);
 		if (!a.contacts.releasable.empty()) watchForRelease(a, pair);
 	}
 	advanceContacts(a, dt, threads);

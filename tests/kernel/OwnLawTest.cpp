@@ -11,7 +11,7 @@ namespace {
 
 /// Mode I with linear softening: sigma = kn un up to the strength f = tension, then down a straight line to zero at un = w, and back
 /// and forth along the secant from the origin: sigma = (1 - D) kn un in opening, D = max over time of w (un - e) / (un (w - e)), e = f / kn.
-/// Closed, it is elastic. The damage is kept in JointState::slipMax, which a law without dilation may use as it likes [-].
+/// Closed, it is elastic. The damage is kept in JointState::uplift, which a law without dilation may use as it likes [-].
 struct LinearSoftening {
 	Real w; ///< opening beyond which nothing is carried [m]
 
@@ -19,10 +19,10 @@ struct LinearSoftening {
 	{
 		const Real e = p.tension / p.kn;
 		if (un > e) {
-			state.slipMax = std::max(state.slipMax, std::min(Real(1), w * (un - e) / (un * (w - e))));
+			state.uplift = std::max(state.uplift, std::min(Real(1), w * (un - e) / (un * (w - e))));
 			state.status  = Joint::brokenInTension;
 		}
-		const Real whole = 1 - state.slipMax;
+		const Real whole = 1 - state.uplift;
 		return { (un > 0 ? whole : 1) * p.kn * un, whole * p.ks * us, state };
 	}
 };

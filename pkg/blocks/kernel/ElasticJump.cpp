@@ -102,7 +102,7 @@ namespace {
 		updateKinematics(a, 0, int(a.segments.size()));
 		for (int pair = 0; pair < int(a.pairs.size()); ++pair)
 			advanceJoints(a, pair, [](const JointParams& p, const JointState& s, Real opening, Real slip) {
-				return JointStep { p.kn * (opening - dilation(p, s)), p.ks * (slip - s.slipPlastic), s };
+				return JointStep { p.kn * (opening - s.uplift), p.ks * (slip - s.slipPlastic), s };
 			});
 		computeJointForces(a);
 		gatherForces(a);

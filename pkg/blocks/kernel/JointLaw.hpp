@@ -30,7 +30,7 @@ void validate(const JointParams&);
 /// What a contact point remembers from step to step.
 struct JointState {
 	Real  slipPlastic = 0; ///< slip at which the shear stress is zero [m]
-	Real  slipMax     = 0; ///< largest |slipPlastic| so far, which dilation follows [m]
+	Real  uplift      = 0; ///< opening that dilation has forced upon the joint [m]
 	Joint status      = Joint::intact;
 };
 
@@ -40,16 +40,16 @@ struct JointStep {
 	JointState state;
 };
 
-/// Opening that dilation has forced upon the joint; reversal of the slip adds none.
-inline Real dilation(const JointParams& p, const JointState& s) { return p.tanDilation * std::min(s.slipMax, p.dilationLimitSlip); }
+/// The uplift that goes with a plastic slip, so far the largest.
+inline Real uplift(const JointParams& p, Real slipPlastic) { return p.tanDilation * std::min(std::abs(slipPlastic), p.dilationLimitSlip); }
 
 /// One step from `old`, for the opening un [m] and the slip us [m], both in total form:
-///   sigma = kn (un - u_dil),  tau = ks (us - slipPlastic).
+///   sigma = kn (un - uplift),  tau = ks (us - slipPlastic).
 /// An intact joint breaks where sigma > tension, or else where |tau| > cohesion - sigma tan(phi); the strengths drop to the
 /// residual ones in the same step; a joint that was never bonded has them from the start. A broken joint that is open carries nothing; closed, |tau| <= c_res - sigma tan(phi_res).
 inline JointStep advance(const JointParams& p, JointState old, Real un, Real us)
 {
-	const Real sigma = p.kn * (un - dilation(p, old));
+	const Real sigma = p.kn * (un - old.uplift);
 	const Real tau   = p.ks * (us - old.slipPlastic);
 
 	if (old.status == Joint::intact) {
@@ -65,7 +65,7 @@ inline JointStep advance(const JointParams& p, JointState old, Real un, Real us)
 		now.tau          = std::clamp(tau, -limit, limit);
 	}
 	if (now.tau != tau) now.state.slipPlastic = us - now.tau / p.ks;
-	now.state.slipMax = std::max(old.slipMax, std::abs(now.state.slipPlastic));
+	now.state.uplift = std::max(old.uplift, uplift(p, now.state.slipPlastic)); // reversal of the slip takes nothing back
 	return now;
 }
 
