@@ -18,17 +18,18 @@ def drawTradeoff(path, cases, names, lines, title=""):
 	"""One row of two panels for each case: rms error of the peak against the slow run and against the laboratory; the reading below.
 
 	cases: {case: rows}; names: quantities, the peak first; lines: of the reading. Filled markers and the line are the Pareto front of
-	the blocks and, apart, of all spheres; what is dominated is hollow. The second quantity that the laboratory gives is drawn small."""
+	the blocks and, apart, of all spheres; what is dominated is hollow."""
 	import matplotlib
 	from matplotlib.backends.backend_agg import FigureCanvasAgg
 	from matplotlib.figure import Figure
+	from matplotlib.lines import Line2D
 	style = {"font.size": 8, "font.family": "DejaVu Sans", "legend.fontsize": 7, "legend.frameon": False, "axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False}
 	text = [part for line in lines for part in textwrap.wrap(line, 150, subsequent_indent="    ")]
 	with matplotlib.rc_context(style):
-		panels, words = 2.9 * len(cases) + 0.3, 0.135 * len(text) + 0.25
+		panels, words = 2.9 * len(cases) + 0.5, 0.135 * len(text) + 0.25
 		figure = Figure(figsize=(8.2, panels + words))
 		FigureCanvasAgg(figure)
-		grid = figure.add_gridspec(len(cases), 2, left=0.075, right=0.955, top=1 - 0.5 / (panels + words), bottom=(words + 0.55) / (panels + words), wspace=0.2, hspace=0.35)
+		grid = figure.add_gridspec(len(cases), 2, left=0.075, right=0.955, top=1 - 0.7 / (panels + words), bottom=(words + 0.55) / (panels + words), wspace=0.2, hspace=0.35)
 		for i, (case, rows) in enumerate(cases.items()):
 			for j, (kind, against) in enumerate((("reference", "its own slow run"), ("laboratory", "the laboratory"))):
 				axes = figure.add_subplot(grid[i, j])
@@ -36,7 +37,9 @@ def drawTradeoff(path, cases, names, lines, title=""):
 				_panel(axes, [row for row in rows if kind == "laboratory" or not (row.isReference or row.knob in specimenKnobs[:3])], kind, names)
 				axes.set_title(f"{case}: {shortNames[names[0]]} against {against}", loc="left", fontsize=8)
 				if i == len(cases) - 1: axes.set_xlabel("CPU time of a run [s]")
-				if i == 0 and j == 1: axes.legend(loc="best", handletextpad=0.2)
+		models = [model for model in _looks if any(row.model == model for rows in cases.values() for row in rows)]
+		figure.legend(handles=[Line2D([], [], color=_looks[m][0], marker=_looks[m][1], markersize=5, linestyle="none", label=m) for m in models], ncols=len(models),
+			loc="upper left", bbox_to_anchor=(0.01, 1 - 0.22 / (panels + words)), handletextpad=0.2, columnspacing=1.5) # above the panels, where no point can be
 		figure.text(0.02, (words - 0.05) / (panels + words), "\n".join(text), va="top", fontsize=7, linespacing=1.35)
 		figure.suptitle(title, x=0.02, ha="left", fontsize=9, y=1 - 0.1 / (panels + words), va="top")
 		Path(path).parent.mkdir(parents=True, exist_ok=True)
@@ -63,8 +66,6 @@ def _panel(axes, rows, kind, names):
 		axes.set_axis_off()
 		axes.text(0, 0.8, "no slow runs in this mode", transform=axes.transAxes, fontsize=7, color="#888888")
 		return
-	for model in shown: # one entry each
-		if shown[model]: axes.plot([], [], _looks[model][1], color=_looks[model][0], markersize=5, linestyle="none", label=model)
 	axes.set(xscale="log", yscale="log")
 	for level in (5, 2, 1): axes.axhline(level, color="#CCCCCC", linewidth=0.5, zorder=0)
 	for axis in (axes.xaxis, axes.yaxis):
