@@ -38,7 +38,8 @@ p = scenario.parameters(
 	 'merge': 0.1, **jointDefaults, 'halfRate': False, 'vtk': True},
 	{'sigma': scenario.notNegative, 'stroke': scenario.positive, 'approach': scenario.Rule(lambda f: 0 < f <= 1, 'must lie in (0, 1]'), 'brickZone': scenario.positive,
 	 'size': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer'),
-	 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')}) # JointMat refuses what no joint can have
+	 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)'), 'kn': scenario.positive, 'ks': scenario.positive, 'cohesion': scenario.notNegative, 'tension': scenario.notNegative,
+	 **dict.fromkeys(('friction', 'residualFriction'), scenario.Rule(lambda angle: 0 <= angle < 90, 'must lie in [0, 90) degrees'))})
 joint = dict(kn=p.kn, ks=p.ks, frictionAngle=radians(p.friction), frictionAngleResidual=radians(p.residualFriction), cohesion=p.cohesion, tension=p.tension)
 area, low, high = length * thickness, brickHeight, brickHeight + mortarHeight
 peakExpected, residualExpected = 0.87 + 1.01 * p.sigma / 1e6, 0.73 * p.sigma / 1e6
