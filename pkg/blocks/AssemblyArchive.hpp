@@ -33,7 +33,7 @@ namespace serialization {
 		KEEP(cohesionResidual), KEEP(tanPhiResidual), KEEP(tensionResidual), KEEP(tanDilation), KEEP(dilationLimitSlip);
 	}
 
-	template <class Archive> void serialize(Archive& ar, blocks::EdgePair& x, unsigned) { KEEP(edge), KEEP(slip), KEEP(sigma), KEEP(tau), KEEP(area); }
+	template <class Archive> void serialize(Archive& ar, blocks::EdgePair& x, unsigned) { KEEP(edge), KEEP(slip), KEEP(sigma), KEEP(tau), KEEP(area), KEEP(uplift); }
 
 	template <class Archive> void serialize(Archive& ar, blocks::FreeContact& x, unsigned) { KEEP(block), KEEP(joint), KEEP(edges), KEEP(friction); }
 

@@ -347,6 +347,128 @@ TEST(FreeContacts, BrokenSegmentsAreReleasedWithoutAJump)
 	EXPECT_NEAR(f.dot(along) / (0.7 * Vec2(0.3, 0.8).norm()), 500 + 0.5 * 1000, 1);
 }
 
+TEST(FreeContacts, DilatedJointsAreReleasedWithoutAJump)
+{
+	// As above, with a joint that dilates for 2e-6 m: it stays a joint while it does, and what it was raised by stays for good.
+	JointParams joint = elasticJoint(1e9, 4e8);
+	joint.tension = 1e5, joint.cohesion = 100, joint.tanPhi = joint.tanPhiResidual = 0.5;
+	joint.tanDilation = 0.2, joint.dilationLimitSlip = 2e-6;
+	BlockAssembly a      = twoBlocks(joint);
+	const Vec2    along  = Vec2(0.3, 0.8).normalized(), normal(along.y(), -along.x());
+	auto          move   = [&](const Vec2& u) {
+                for (int n = a.firstNode[1]; n < a.nodeCount(); ++n)
+                        a.position[n] += u, a.velocity[n] = u;
+	};
+	enableRelease(a);
+	move(-1e-6 * normal);
+	for (int i = 0; i < 5; ++i)
+		move(4e-7 * along), computeAllForces(a, joint, 1, 1, false);
+	EXPECT_NE(a.points[0].joint.status, Joint::intact);
+	EXPECT_FALSE(a.segments[0].released()); // it still dilates
+	for (int i = 0; i < 20; ++i) {
+		move(4e-7 * along);
+		updateKinematics(a, 0, 1);
+		advanceJoints(a, 0, advance);
+	}
+	EXPECT_NEAR(a.points[0].sigma, -1e9 * (1e-6 + 0.2 * 2e-6), 1);
+	watchForRelease(a, 0);
+	for (int n = 0; n < a.nodeCount(); ++n)
+		a.velocity[n].setZero();
+	computeJointForces(a);
+	gatherForces(a);
+	const auto before = a.force;
+	const Real energy = jointEnergy(a), scale = largestForce(a);
+	computeAllForces(a, joint, 1, 1, false);
+	EXPECT_TRUE(a.segments[0].released());
+	for (int n = 0; n < a.nodeCount(); ++n)
+		EXPECT_LT((a.force[n] - before[n]).norm(), 3e-5 * scale); // it has slid by 1e-5 of its length
+	EXPECT_NEAR(jointEnergy(a), energy, 3e-5 * energy);
+	// apart by less than the asperities are high they still touch; farther they do not
+	move(1.2e-6 * normal), computeAllForces(a, joint, 0, 1, false);
+	EXPECT_GT(largestForce(a), 0.1 * scale);
+	move(0.4e-6 * normal), computeAllForces(a, joint, 0, 1, false);
+	EXPECT_EQ(contactEnergy(a), 0);
+	// without a limit slip it dilates for a quarter of its length, 0.85 m
+	joint.dilationLimitSlip = std::numeric_limits<Real>::max();
+	BlockAssembly b          = twoBlocks(joint);
+	b.points[0].joint.status = b.points[1].joint.status = Joint::brokenInShear;
+	b.points[0].sigma = b.points[1].sigma = -1;
+	for (Real slip : { 0.21, 0.22 }) {
+		b.points[0].joint.slipPlastic = b.points[1].joint.slipPlastic = slip;
+		enableRelease(b);
+		b.contacts.releasable[0] = false;
+		watchForRelease(b, 0);
+		EXPECT_EQ(bool(b.contacts.releasable[0]), slip > std::hypot(0.3, 0.8) / 4);
+	}
+}
+
+TEST(FreeContacts, RaisedEdgesHaveThePotentialsForces)
+{
+	// Asperities far higher than any, so that their lever counts: normal forces against differences of the energy, and what friction
+	// takes from the blocks against what its springs hold.
+	JointParams joint = frictional(1e9, 4e8, 0);
+	joint.cohesion = joint.tension = 0;
+	BlockAssembly a = twoBlocks(joint);
+	for (ContactPoint& p : a.points)
+		p.joint.status = Joint::brokenInShear;
+	enableRelease(a);
+	prepareContacts(a);
+	ASSERT_EQ(a.contacts.order.size(), 1u);
+	setContactJoint(a, 0, joint);
+	FreeContact& contact = a.contacts.all[0];
+	for (EdgePair& e : contact.edges)
+		e.uplift = e.area > 0 ? 0.05 : 0;
+	std::mt19937                         random(5);
+	std::uniform_real_distribution<Real> shift(-0.01, 0.01);
+	for (Vec2& x : a.position)
+		x += Vec2(shift(random), shift(random));
+
+	auto energy = [](BlockAssembly b) {
+		rebuildContacts(b);
+		updateContact(b, 0);
+		return contactEnergy(b);
+	};
+	auto forces = [](BlockAssembly& b, Real dt) {
+		rebuildContacts(b);
+		updateContact(b, 0);
+		advanceContact(b, 0, dt);
+		std::vector<Vec2> f(b.nodeCount(), Vec2::Zero());
+		gatherContactForces(b, 0, f.data()), gatherContactForces(b, 1, f.data());
+		return f;
+	};
+	for (EdgePair& e : contact.edges)
+		e.slip = { 0, 0 };
+	BlockAssembly smooth = a;
+	const auto    normal = forces(smooth, 0);
+	Real          scale = 0, moment = 0;
+	Vec2          sum = Vec2::Zero();
+	for (int n = 0; n < a.nodeCount(); ++n)
+		scale = std::max(scale, normal[n].norm()), sum += normal[n], moment += cross(a.position[n], normal[n]);
+	EXPECT_GT(scale, 1e5);
+	EXPECT_LT(sum.norm() + std::abs(moment), 1e-12 * scale);
+	const Real h = 1e-7;
+	for (int n = 0; n < a.nodeCount(); ++n)
+		for (int axis : { 0, 1 }) {
+			BlockAssembly more = a, less = a;
+			more.position[n][axis] += h, less.position[n][axis] -= h;
+			EXPECT_NEAR(normal[n][axis], (energy(less) - energy(more)) / (2 * h), 1e-6 * scale) << n;
+		}
+
+	BlockAssembly rough = a;
+	rough.contacts.all[0].joint.tanPhiResidual = 1e9;
+	for (Vec2& v : rough.velocity)
+		v = Vec2(shift(random), shift(random));
+	const Real dt = 1e-3;
+	const auto all = forces(rough, dt);
+	Real       taken = 0, held = 0;
+	for (int n = 0; n < a.nodeCount(); ++n)
+		taken += dt * (all[n] - normal[n]).dot(rough.velocity[n]);
+	for (const EdgePair& e : rough.contacts.all[0].edges)
+		held += joint.ks * e.area * (e.slip[0] * e.slip[0] + e.slip[1] * e.slip[1]);
+	EXPECT_GT(held, 0);
+	EXPECT_NEAR(taken, -held, 1e-10 * held);
+}
+
 // ---- energy
 
 TEST(FreeContacts, CornerHitsKeepTheEnergy)
@@ -852,7 +974,7 @@ TEST(FreeContacts, ContinuesFromWhatIsSaved)
 	for (FreeContact& c : b.contacts.all)
 		for (EdgePair& e : c.edges) {
 			EdgePair kept {};
-			kept.edge = e.edge, kept.slip = e.slip, kept.sigma = e.sigma, kept.tau = e.tau, kept.area = e.area;
+			kept.edge = e.edge, kept.slip = e.slip, kept.sigma = e.sigma, kept.tau = e.tau, kept.area = e.area, kept.uplift = e.uplift;
 			e = kept;
 		}
 	FreeContacts kept;

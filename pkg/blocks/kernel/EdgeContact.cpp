@@ -30,6 +30,28 @@ namespace {
 
 } // namespace
 
+FourPoints raised(const FourPoints& p, Real uplift)
+{
+	const Vec2 up = uplift * outward((p[1] - p[0]).normalized());
+	return { p[0] + up, p[1] + up, p[2], p[3] };
+}
+
+FourPoints raisedVelocity(const FourPoints& p, Real uplift, const FourPoints& v)
+{
+	// the normal turns towards e as e turns towards its left
+	const Vec2 A = p[1] - p[0];
+	const Vec2 more = uplift * turned(A).dot(v[1] - v[0]) / A.squaredNorm() * A.normalized();
+	return { v[0] + more, v[1] + more, v[2], v[3] };
+}
+
+void lowerForces(const FourPoints& p, Real uplift, FourPoints& force)
+{
+	const Vec2 A = p[1] - p[0];
+	const Vec2 couple = uplift * (force[0] + force[1]).dot(A.normalized()) / A.squaredNorm() * turned(A);
+	force[0] -= couple;
+	force[1] += couple;
+}
+
 WIDER void edgeGeometry(const FourPoints& p, const EdgeShape& shape, EdgeGeometry& g)
 {
 	g.active       = false;

@@ -52,6 +52,15 @@ using FourPoints = std::array<Vec2, 4>; ///< at a0, a1, b0, b1
 /// The geometry of two edges at points a0, a1, b0, b1.
 void edgeGeometry(const FourPoints&, const EdgeShape&, EdgeGeometry&);
 
+/// Edge A moved out of its block by `uplift`: what a joint has dilated before its edges became a free pair stays between them.
+FourPoints raised(const FourPoints&, Real uplift);
+
+/// ... and its velocity, for the velocities of the four points.
+FourPoints raisedVelocity(const FourPoints&, Real uplift, const FourPoints& velocity);
+
+/// Forces on the raised edge's ends, and on B, as forces on the four points: the work is the same.
+void lowerForces(const FourPoints&, Real uplift, FourPoints& force);
+
 /// A distance that the four vertices may move, those of A and those of B taken together, while a pair that does not touch
 /// surely goes on not touching; 0 if none is known [m].
 Real freeDistance(const FourPoints&, const EdgeShape&);

@@ -112,6 +112,13 @@ namespace {
 		return { a.position[e.node[0]], a.position[e.node[1]], a.position[e.node[2]], a.position[e.node[3]] };
 	}
 
+	/// The corners of what touches.
+	FourPoints raisedCorners(const BlockAssembly& a, const EdgePair& e)
+	{
+		const FourPoints x = corners(a, e);
+		return e.uplift > 0 ? raised(x, e.uplift) : x;
+	}
+
 	/// Whether two edges touch, or can do so when their four vertices move by `margin` together.
 	bool mayTouch(const Vec2& a0, const Vec2& a1, const Vec2& b0, const Vec2& b1, Real margin)
 	{
@@ -171,12 +178,13 @@ namespace {
 			if (!box.meets(other, reach)) continue;
 			for (int j = a.firstEdge[contact.block[1]]; j < a.firstEdge[contact.block[1] + 1]; ++j) {
 				const Vec2 &b0 = a.position[a.edgeNodes[j][0]], &b1 = a.position[a.edgeNodes[j][1]];
-				if (!box.meets(boxOf(b0, b1), reach) || !mayTouch(a0, a1, b0, b1, margin)) continue;
 				const std::array<int, 2> key { i, j };
-				if (std::binary_search(bonded.begin(), bonded.end(), key)) continue;
 				while (old != contact.edges.end() && old->edge < key)
 					++old;
-				if (old != contact.edges.end() && old->edge == key) {
+				const bool known = old != contact.edges.end() && old->edge == key;
+				if (!box.meets(boxOf(b0, b1), reach) || !mayTouch(a0, a1, b0, b1, margin + (known ? old->uplift : 0))) continue;
+				if (std::binary_search(bonded.begin(), bonded.end(), key)) continue;
+				if (known) {
 					found.push_back(*old);
 					continue;
 				}
@@ -206,13 +214,18 @@ namespace {
 		return slot;
 	}
 
+	/// A joint dilates until it has slid by its limit slip, or by this share of its length.
+	constexpr Real dilatesFor = 0.25;
+
 	/// A segment whose points are both broken, and that has no force which a free pair could not carry.
 	bool mayRelease(const BlockAssembly& a, const JointParams& joint, int segment)
 	{
 		for (int i : { 2 * segment, 2 * segment + 1 }) {
 			const ContactPoint& p = a.points[i];
 			if (p.joint.status == Joint::intact || p.sigma > 0) return false; // residual tension stays with the point law
-			if (joint.tanDilation > 0 && p.sigma < 0) return false;           // so does a joint that stands on its asperities
+			if (joint.tanDilation > 0 && p.sigma < 0 // so does a joint that goes on dilating
+			    && std::abs(p.joint.slipPlastic) < std::min(joint.dilationLimitSlip, dilatesFor * 2 * a.segments[segment].area / a.thickness))
+				return false;
 		}
 		return true;
 	}
@@ -238,7 +251,10 @@ namespace {
 			auto       at  = std::lower_bound(
                                 contact.edges.begin(), contact.edges.end(), key, [](const EdgePair& e, const std::array<int, 2>& k) { return e.edge < k; });
 			const bool near = at != contact.edges.end() && at->edge == key;
-			if (near) at->area = area[i];
+			if (near) {
+				at->area   = area[i];
+				at->uplift = (a.points[2 * s].joint.uplift + a.points[2 * s + 1].joint.uplift) / 2;
+			}
 			for (int k : { 0, 1 }) {
 				ContactPoint& p = a.points[2 * s + k];
 				if (near) at->slip[k] = p.tau / contact.joint.ks, at->sigma[k] = p.sigma, at->tau[k] = p.tau;
@@ -406,7 +422,7 @@ WIDER void updateContact(BlockAssembly& a, int contact)
 	/// Whether a pair touches, and what it is like if it does.
 	auto look = [&](int i, EdgeGeometry& g) {
 		EdgePair&        e = c.edges[i];
-		const FourPoints x = corners(a, e);
+		const FourPoints x = raisedCorners(a, e);
 		edgeGeometry(x, e.shape, g);
 		if (!g.active) {
 			if (e.touching || e.area > 0) { // they have parted
@@ -414,7 +430,8 @@ WIDER void updateContact(BlockAssembly& a, int contact)
 				e.slip = e.sigma = e.tau = { 0, 0 };
 				e.area                   = 0;
 			}
-			c.restsUntil[i] = path + roundingShare * freeDistance(x, e.shape);
+			const Real lever = 1 + 2 * e.uplift / (x[1] - x[0]).norm(); // what is raised moves more where the edge turns
+			c.restsUntil[i]  = path + roundingShare * freeDistance(x, e.shape) / lever;
 			c.allRestUntil  = std::min(c.allRestUntil, c.restsUntil[i]);
 		}
 		return e.touching = g.active;
@@ -441,7 +458,9 @@ WIDER void advanceContact(BlockAssembly& a, int contact, Real dt)
 	for (int i = 0; i < int(c.active.size()); ++i) {
 		EdgePair&           e    = c.edges[c.active[i]];
 		const EdgeGeometry& g    = c.geometry[i];
-		const FourPoints    x    = corners(a, e);
+		const FourPoints    x    = raisedCorners(a, e);
+		FourPoints          v { a.velocity[e.node[0]], a.velocity[e.node[1]], a.velocity[e.node[2]], a.velocity[e.node[3]] };
+		if (e.uplift > 0) v = raisedVelocity(x, e.uplift, v);
 		const Real          area = a.thickness * g.area;
 		e.force.fill(Vec2::Zero());
 		addNormalForces(x, e.shape, g, joint.kn * a.thickness, e.force);
@@ -454,7 +473,7 @@ WIDER void advanceContact(BlockAssembly& a, int contact, Real dt)
 				const EdgeEnd end = edgeEnd(x, g, k);
 				Real          ds  = 0;
 				for (int i = 0; i < 4; ++i)
-					ds += dt * end.slipGradient[i].dot(a.velocity[e.node[i]]);
+					ds += dt * end.slipGradient[i].dot(v[i]);
 				const Real old = e.slip[k] * regrown, limit = (joint.cohesionResidual + pressure * joint.tanPhiResidual) / joint.ks;
 				e.slip[k]       = std::clamp(old + ds, -limit, limit);
 				const Real drag = joint.ks * area * e.slip[k];
@@ -468,6 +487,7 @@ WIDER void advanceContact(BlockAssembly& a, int contact, Real dt)
 			e.tau[k]   = joint.ks * e.slip[k];
 		}
 		e.area = area;
+		if (e.uplift > 0) lowerForces(x, e.uplift, e.force);
 	}
 }
 
@@ -543,7 +563,7 @@ ContactEnd contactEnd(const BlockAssembly& a, const FreeContact& c, int active, 
 {
 	const EdgePair&     e   = c.edges[c.active[active]];
 	const EdgeGeometry& g   = c.geometry[active];
-	const EdgeEnd       end = edgeEnd(corners(a, e), g, k);
+	const EdgeEnd       end = edgeEnd(raisedCorners(a, e), g, k);
 	return { (end.onA + end.onB) / 2, { g.t.y(), -g.t.x() }, g.depth[k], e.sigma[k], e.tau[k], e.area };
 }
 

@@ -26,6 +26,7 @@ struct EdgePair {
 	std::array<Real, 2> sigma { 0, 0 }; ///< normal stress of the ends, tension positive [Pa]
 	std::array<Real, 2> tau { 0, 0 };   ///< shear stress; positive drags the first block along e_A [Pa]
 	Real                area = 0;       ///< of each end, in the step of the stresses [m2]
+	Real                uplift = 0;     ///< by which the joint had dilated that became this pair; it stays [m]
 	FourPoints          force;          ///< on the four nodes; meaningful if the pair is active [N]
 	EdgeShape           shape;
 
