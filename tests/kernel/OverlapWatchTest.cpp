@@ -164,6 +164,29 @@ TEST(StabilityWatch, WarnsOnceOfThickJointsAndStopsWhereTheirMeanIsTooThick)
 	EXPECT_EQ(watch.restore(a), 200);
 }
 
+TEST(StabilityWatch, StopsABondedBlockThatEntersAnother)
+{
+	// One joint in 21 has given way, so that their mean is thin: the innermost point of the lower block of the two is in the higher one.
+	for (bool flipped : { false, true }) {
+		BlockAssembly a;
+		a.addMaterial(stone());
+		const Real low = flipped ? 0.4 : 0.2, high = 0.6 - low;
+		addGrid(a, { 0, 0 }, 0.6, low, 3, flipped ? 5 : 2);
+		addGrid(a, { 0, low }, 0.6, high, 2, flipped ? 2 : 5);
+		for (int i = 1; i <= 20; ++i)
+			addGrid(a, { 2. * i, 0 }, 0.6, 0.2, 1, 1), addGrid(a, { 2. * i, 0.2 }, 0.6, 0.2, 1, 1);
+		bondAll(a, elasticJoint(100e9, 40e9));
+		for (int block = 1; block < a.blockCount(); block += 2)
+			for (int n = a.firstNode[block]; n < a.firstNode[block + 1]; ++n)
+				a.position[n].y() -= block == 1 ? 0.12 : 1e-4;
+		computeForces(a);
+		const auto gone = StabilityWatch().look(a, 0, 0, 1e-6);
+		EXPECT_FALSE(gone.stable);
+		EXPECT_EQ(gone.block, flipped);
+		EXPECT_NE(gone.reason.find(flipped ? "gone into block 0" : "gone into block 1"), std::string::npos) << gone.reason;
+	}
+}
+
 TEST(StabilityWatch, TellsOfLostFragmentsAndStopsWhereManyAre)
 {
 	// Two squares in each other: both innermost points are lost, 2 of 150 blocks or of 250.

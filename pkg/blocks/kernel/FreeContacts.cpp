@@ -260,7 +260,6 @@ namespace {
 				if (near) at->slip[k] = p.tau / contact.joint.ks, at->sigma[k] = p.sigma, at->tau[k] = p.tau;
 				p.sigma = p.tau = 0;
 			}
-			a.segmentForce[s].fill(Vec2::Zero());
 		}
 		a.listSides();
 		return true;

@@ -57,12 +57,12 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 	const char* const cure = "; joints must be stiffer or loads smaller";
 	const std::string entered = overlaps.entries == 0 ? "" : "has gone into block " + std::to_string(overlaps.through[1]) + " by more than half";
 	if (overlaps.entries > lostShare * a.blockCount()) return { false, overlaps.through[0], "it " + entered + cure };
+	if (overlaps.inverted >= 0) return { false, overlaps.inverted, "a zone has turned inside out" };
 	if (overlaps.mean > OverlapWatch::thin) {
 		char share[16];
 		std::snprintf(share, sizeof share, "%.0f %%", 100 * overlaps.mean);
 		return { false, overlaps.joint.block[0], std::string("joints overlap by ") + share + " of the height of the zones behind in the mean, most of all " + described(overlaps.joint) + cure };
 	}
-	if (overlaps.inverted >= 0) return { false, overlaps.inverted, "a zone has turned inside out" };
 
 	Real turnover = 0;
 	for (const MotionGroup& g : a.groups)
