@@ -116,3 +116,30 @@ def test_aColliderWithoutBlockContactsIsRefused():
 	O.engines = O.engines[1:]
 	with pytest.raises(RuntimeError, match='blocks 0 and 3 near each other: O.engines needs BlockContacts'):
 		O.run(5, True)
+
+
+def test_dilatedJointsBecomeFreeContactsAndAreSaved(tmp_path):
+	"""Pressed and sheared until the joint has dilated to its limit: the blocks stay apart by that, and a saved run goes on with the same bits."""
+	materials()
+	m = column(heights=(0.2, 0.2), labels=('unit', 'unit'))
+	upper = nodesWhere(m, lambda x, y: y > 0.4 - 1e-9)
+	m.drive('low', nodesWhere(m, lambda x, y: y < 1e-9), 'xy')
+	m.push('press', upper, 'y', force=-1e4, rampTime=0.1)
+	m.drive('slide', upper, 'x', velocity=1e-3, startTime=0.2, rampTime=0.05)
+	m.insert()
+	limit, angle = 2e-5, 0.2
+	O.dt = 1e-3
+	O.engines = [BlockContacts(), InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0)] \
+		+ engines(glued(cohesion=1e3, tension=1e3, frictionAngle=0.5, dilationAngle=angle, dilationLimitSlip=limit), alpha=0.8)
+	O.run(200, True)
+	before = m.position[upper, 1].mean()
+	O.run(400, True)
+	assert (m.segmentArea == 0).all() and O.interactions[0, 1].geom.ends
+	# up by the asperities; friction bends the blocks by some 1e-7 m
+	assert m.position[upper, 1].mean() - before == pytest.approx(limit * math.tan(angle), rel=0.1)
+	O.save(str(tmp_path / 'dilated.yade'))
+	O.run(200, True)
+	expected = state(m)
+	O.load(str(tmp_path / 'dilated.yade'))
+	O.run(200, True)
+	assert differences(expected, state(model())) == []
