@@ -26,7 +26,7 @@ public:
 		((Real, frictionAngleResidual, -1, , "Friction angle after failure Jfric_res [rad]; -1: as before."))
 		((Real, cohesionResidual, 0, , "Cohesion after failure Jcoh_res [Pa]."))
 		((Real, tensionResidual, 0, , "Tensile strength after failure [Pa]."))
-		((Real, dilationLimitSlip, -1, , "Slip beyond which the joint dilates no further [m]; -1: none."))
+		((Real, dilationLimitSlip, -1, , "Slip beyond which the joint dilates no further [m]; -1: none. With :yref:`BlockContacts` a quarter of the joint's length is the most: then its edges become a free contact, which keeps what it has dilated."))
 		((bool, bonded, true, , "Whether the joints are whole at first; False: dry, they start with the residual properties."))
 	);
 	// clang-format on
@@ -55,7 +55,7 @@ public:
 		"Joint of a pair of blocks: its properties, which may be set pair by pair (for example by region), and stresses at its contact points.",
 		((shared_ptr<BlockModel>, model, , Attr::readonly, "The model that holds the joint."))
 		((int, pair, -1, Attr::readonly, "Index of the pair of bonded blocks in the model; -1: never bonded."))
-		((int, contact, -1, Attr::readonly, "Index of the free contact of a pair that was never bonded.")),
+		((int, contact, -1, Attr::readonly, "Index of the free contact of a pair that was never bonded, or has joints that are broken.")),
 		createIndex();,
 		.def(JointPhysPython())
 	);
