@@ -301,36 +301,57 @@ TEST(FreeContacts, ConformingJointGivesThePointLaw)
 		EXPECT_LT((bonded.force[n] - free.force[n]).norm(), 1e-5 * scale) << n;
 }
 
+namespace {
+
+// Along the joint of twoBlocks and out of the first one.
+const Vec2 along = Vec2(0.3, 0.8).normalized(), normal(along.y(), -along.x());
+
+void moveSecond(BlockAssembly& a, const Vec2& u)
+{
+	for (int n = a.firstNode[1]; n < a.nodeCount(); ++n)
+		a.position[n] += u, a.velocity[n] = u;
+}
+
+/// Slips of 4e-7 m, with the joint's law alone.
+void slideSecond(BlockAssembly& a, int steps)
+{
+	for (int i = 0; i < steps; ++i) {
+		moveSecond(a, 4e-7 * along);
+		updateKinematics(a, 0, 1);
+		advanceJoints(a, 0, advance);
+	}
+}
+
+/// Nodal forces of the joint as it is, everything stopped and looked at for release.
+std::vector<Vec2> forcesAtRest(BlockAssembly& a)
+{
+	watchForRelease(a, 0);
+	for (Vec2& v : a.velocity)
+		v.setZero();
+	computeJointForces(a);
+	gatherForces(a);
+	return a.force;
+}
+
+} // namespace
+
 TEST(FreeContacts, BrokenSegmentsAreReleasedWithoutAJump)
 {
 	// Pressed and sheared until the joint slides; the step in which its segments become free pairs must not change the forces.
 	JointParams joint = elasticJoint(1e9, 4e8);
 	joint.tension = 1e5, joint.cohesion = 2e3, joint.tanPhi = joint.tanPhiResidual = 0.5;
 	joint.cohesionResidual = 500;
-	BlockAssembly a        = twoBlocks(joint);
-	const Vec2    along    = Vec2(0.3, 0.8).normalized(), normal(along.y(), -along.x());
-	auto          move     = [&](const Vec2& u) {
-                for (int n = a.firstNode[1]; n < a.nodeCount(); ++n)
-                        a.position[n] += u, a.velocity[n] = u;
-	};
+	BlockAssembly a = twoBlocks(joint);
+	auto          move = [&](const Vec2& u) { moveSecond(a, u); };
 	enableRelease(a);
 	move(-1e-6 * normal);
 	computeAllForces(a, joint, 1, 1, false);
 	EXPECT_TRUE(a.contacts.order.empty());
 	EXPECT_FALSE(a.segments[0].released());
-	for (int i = 0; i < 20; ++i) {
-		move(4e-7 * along);
-		updateKinematics(a, 0, 1);
-		advanceJoints(a, 0, advance);
-	}
+	slideSecond(a, 20);
 	EXPECT_EQ(a.points[0].joint.status, Joint::brokenInShear);
 	EXPECT_NEAR(a.points[0].tau, 500 + 0.5 * 1000, 1);
-	watchForRelease(a, 0);
-	for (int n = 0; n < a.nodeCount(); ++n)
-		a.velocity[n].setZero();
-	computeJointForces(a);
-	gatherForces(a);
-	const auto before = a.force;
+	const auto before = forcesAtRest(a);
 	const Real energy = jointEnergy(a), scale = largestForce(a);
 	computeAllForces(a, joint, 1, 1, false);
 	ASSERT_EQ(a.contacts.order.size(), 1u);
@@ -353,30 +374,17 @@ TEST(FreeContacts, DilatedJointsAreReleasedWithoutAJump)
 	JointParams joint = elasticJoint(1e9, 4e8);
 	joint.tension = 1e5, joint.cohesion = 100, joint.tanPhi = joint.tanPhiResidual = 0.5;
 	joint.tanDilation = 0.2, joint.dilationLimitSlip = 2e-6;
-	BlockAssembly a      = twoBlocks(joint);
-	const Vec2    along  = Vec2(0.3, 0.8).normalized(), normal(along.y(), -along.x());
-	auto          move   = [&](const Vec2& u) {
-                for (int n = a.firstNode[1]; n < a.nodeCount(); ++n)
-                        a.position[n] += u, a.velocity[n] = u;
-	};
+	BlockAssembly a = twoBlocks(joint);
+	auto          move = [&](const Vec2& u) { moveSecond(a, u); };
 	enableRelease(a);
 	move(-1e-6 * normal);
 	for (int i = 0; i < 5; ++i)
 		move(4e-7 * along), computeAllForces(a, joint, 1, 1, false);
 	EXPECT_NE(a.points[0].joint.status, Joint::intact);
 	EXPECT_FALSE(a.segments[0].released()); // it still dilates
-	for (int i = 0; i < 20; ++i) {
-		move(4e-7 * along);
-		updateKinematics(a, 0, 1);
-		advanceJoints(a, 0, advance);
-	}
+	slideSecond(a, 20);
 	EXPECT_NEAR(a.points[0].sigma, -1e9 * (1e-6 + 0.2 * 2e-6), 1);
-	watchForRelease(a, 0);
-	for (int n = 0; n < a.nodeCount(); ++n)
-		a.velocity[n].setZero();
-	computeJointForces(a);
-	gatherForces(a);
-	const auto before = a.force;
+	const auto before = forcesAtRest(a);
 	const Real energy = jointEnergy(a), scale = largestForce(a);
 	computeAllForces(a, joint, 1, 1, false);
 	EXPECT_TRUE(a.segments[0].released());
