@@ -8,7 +8,7 @@ What is run are the tables below: each point for several seeds, a process each. 
 NAME-MODE.png (error over CPU seconds, and its reading), NAME-MODE.md (table and reading), NAME-MODE.csv and NAME-MODE-runs.csv.
 
 	mode=quick      less than ten minutes on two idle cores
-	mode=full       every knob, finer packings: some hours
+	mode=full       every knob, all stresses, finer packings: about two hours on two idle cores
 	mode=calibrate  goes on with the calibration of the spheres (model=NAME: of this one only) from scripts/calibrated.json, and writes it; a report says which
 	                calibrations were made with other code, targets, packings or ties than today's
 
@@ -54,8 +54,8 @@ sigmas = (0.1e6, 0.5e6, 1e6) # [Pa], shear
 # ---- the study: for each experiment lines of (knob, what changes the specimen, what changes only the way it is computed)
 
 slow = { # steps of the reference; half of them show how far it is converged
-	"quick": {"tension": 80000, "shear": 24000, "compression": 30000}, "full": {"tension": 320000, "shear": 96000, "compression": 240000}}
-slowSpheres = {"tension": 160000, "shear": 64000, "compression": 80000} # full
+	"quick": {"tension": 80000, "shear": 24000, "compression": 30000}, "full": {"tension": 320000, "shear": 96000, "compression": 120000}}
+middle = ("tension", "shear 0.5", "compression") # of three stresses one is enough for slow runs of every specimen
 
 def steps(*numbers): return [("steps", {}, {"steps": n}) for n in numbers]
 def way(knob, n, *values, **more): return [(knob, {}, {"steps": n, knob: value, **more}) for value in values]
@@ -73,17 +73,16 @@ blocks = { # a setting that a scenario refuses is in the table as failed
 		"tension": steps(1000, 2500, 5000, 10000, 20000, 40000, 80000) + way("alpha", 10000, 0.1, 0.3, 0.5) + way("alpha", 40000, 0.1, 0.3, 0.5)
 			+ way("damping", 10000, "adaptive", "none") + way("damping", 40000, "adaptive", "none") + way("jump", 5000, False) + way("jump", 20000, False)
 			+ way("servo", 2500, True) + way("servo", 10000, True) + way("servo", 10000, True, jump=False) + way("safety", 20000, 0.4) + way("safety", 20000, 0.9, alpha=0.1)
-			+ specimen("size", 40000, 1e-3, 1.5e-3, 3e-3, 6e-3) + specimen("plane", 40000, "stress"),
-		**{case: steps(1500, 3000, 6000, 12000, 24000, 48000) + way("alpha", 6000, 0.1, 0.5, 0.8) + way("alpha", 24000, 0.1, 0.5, 0.8)
-			+ way("damping", 12000, "adaptive", "none") + way("jump", 6000, False) + way("servo", 3000, True) + way("servo", 12000, True) + way("servo", 12000, True, jump=False)
-			+ way("safety", 12000, 0.4, 0.85) + specimen("size", 12000, 2.5e-3, 5e-3) + specimen("plane", 12000, "stress")
-			for case in ("shear 0.1", "shear 0.5", "shear 1.0")},
+			+ specimen("size", 40000, 1e-3, 1.5e-3, 3e-3, 6e-3) + specimen("plane", 40000, "stress") + specimen("units", 40000, "voronoi"),
+		**dict.fromkeys(("shear 0.1", "shear 0.5", "shear 1.0"), steps(1500, 3000, 6000, 12000, 24000, 48000) + way("alpha", 12000, 0.1, 0.5, 0.8)
+			+ way("damping", 12000, "adaptive", "none") + way("jump", 12000, False) + way("servo", 3000, True) + way("servo", 12000, True) + way("servo", 12000, True, jump=False)
+			+ way("safety", 12000, 0.4, 0.85) + specimen("size", 12000, 2.5e-3, 5e-3) + specimen("plane", 12000, "stress") + specimen("units", 12000, "voronoi")),
 		"compression": steps(2500, 5000, 10000, 20000, 30000, 60000) + way("alpha", 10000, 0.1, 0.4, 0.8) + way("alpha", 30000, 0.1, 0.4, 0.8)
 			+ way("damping", 30000, "adaptive", "none") + way("jump", 10000, False) + way("servo", 5000, True) + way("servo", 20000, True) + way("servo", 20000, True, jump=False)
 			+ way("safety", 20000, 0.4, 0.85) + specimen("size", 30000, layers(15e-3, 4.5e-3), layers(7e-3, 3e-3)) + specimen("plane", 30000, "stress") + specimen("units", 30000, "plain")}}
-spheres = { # multiples of the steps and radius they were calibrated with; slow: with references of their own; packings: at most so many
-	"quick": {"steps": (1,), "radius": (1,), "stresses": ("0.5",), "slow": False, "packings": 4, "without": [("lourenco", "shear")]}, # it takes four times as long as the others
-	"full": {"steps": (0.25, 0.5, 1, 2), "radius": (1, 0.7), "stresses": ("0.1", "0.5", "1.0"), "slow": True, "packings": 1000, "without": []}}
+spheres = { # multiples of the steps (slow: of the reference's) and radius they were calibrated with; packings: at most so many
+	"quick": {"steps": (1,), "slow": None, "radius": (), "stresses": ("0.5",), "packings": 4, "without": [("lourenco", "shear")]}, # it takes four times as long as the others
+	"full": {"steps": (0.25, 0.5, 1, 2), "slow": 4, "radius": (0.7,), "stresses": ("0.1", "0.5", "1.0"), "packings": 1000, "without": []}}
 radius = {"tension": 1.5e-3, "shear": 2e-3, "compression": 2.5e-3} # of the spheres in the mortar [m], as in spheres.py
 sphereSteps = {"tension": 20000, "shear": 8000, "compression": 10000} # as in spheres.py
 
@@ -117,17 +116,16 @@ def points(mode, experiment):
 
 def blockPoints(mode, case, lines):
 	experiment, base = case.split()[0], {"vtk": False, **stressOf(case)}
-	compared = mode == "full" or case in ("tension", "shear 0.5", "compression") # quick: one stress is enough for the slow runs
+	reference = lambda specimen: {**base, **specimen, "steps": slow[mode][experiment]}
 	specimens = []
 	for knob, specimen, way in lines:
-		settings = {**base, **specimen, **way}
-		slowest = {**base, **specimen, "steps": slow[mode][experiment]} if compared and (mode == "full" or not specimen) else None
-		yield Point(case, "blocks", knob, inWords({**way, **specimen}), experiment, settings, slowest)
-		if slowest and specimen not in specimens: specimens.append(specimen)
+		compared = (mode == "full" and case in middle) if specimen else (mode == "full" or case in middle)
+		yield Point(case, "blocks", knob, inWords({**way, **specimen}), experiment, {**base, **specimen, **way}, reference(specimen) if compared else None)
+		if compared and specimen not in specimens: specimens.append(specimen)
 	for specimen in specimens:
-		for name, part in (("reference", 1), ("half as slow", 2)):
-			settings = {**base, **specimen, "steps": slow[mode][experiment] // part}
-			yield Point(case, "blocks", name, inWords({"steps": settings["steps"], **specimen}), experiment, settings, {**base, **specimen, "steps": slow[mode][experiment]}, part == 1)
+		yield Point(case, "blocks", "reference", inWords({"steps": slow[mode][experiment], **specimen}), experiment, reference(specimen), reference(specimen), True)
+	half = {**base, "steps": slow[mode][experiment] // 2}
+	if {} in specimens: yield Point(case, "blocks", "half as slow", inWords({"steps": half["steps"]}), experiment, half, reference({}))
 
 
 def spherePoints(mode, case, model, known):
@@ -135,16 +133,17 @@ def spherePoints(mode, case, model, known):
 	base = {"experiment": experiment, "model": model, **stressOf(case)}
 	calibrated = known[f"{model} {experiment}"]["parameters"]
 	wanted = spheres[mode]
-	for factor in wanted["radius"]:
-		size = {"radius": round(factor * radius[experiment], 7)} if factor != 1 else {}
-		if size and model == "jcfpmSmooth": calibrated = {**calibrated, "jointStiffness": calibrated["jointStiffness"] / factor} # a bond's stiffness is E R, its area pi R^2
-		slowest = {**base, **calibrated, **size, "steps": slowSpheres[experiment]} if wanted["slow"] else None
-		for part in wanted["steps"] if factor == 1 else (1,):
-			way = {"steps": int(part * sphereSteps[experiment])}
-			yield Point(case, model, "steps" if factor == 1 else "radius", inWords({**way, **size}), "spheres", {**base, **calibrated, **size, **way}, slowest)
-		if slowest: yield Point(case, model, "reference", inWords({"steps": slowest["steps"], **size}), "spheres", slowest, slowest, True)
+	slowest = {**base, **calibrated, "steps": wanted["slow"] * sphereSteps[experiment]} if wanted["slow"] and case in middle else None
+	for part in wanted["steps"] if case in middle else (1,):
+		way = {"steps": int(part * sphereSteps[experiment])}
+		yield Point(case, model, "steps", inWords(way), "spheres", {**base, **calibrated, **way}, slowest)
+	if slowest: yield Point(case, model, "reference", inWords({"steps": slowest["steps"]}), "spheres", slowest, slowest, True)
+	for factor in wanted["radius"] if case in middle else ():
+		finer = {"steps": sphereSteps[experiment], "radius": round(factor * radius[experiment], 7)}
+		scaled = {"jointStiffness": calibrated["jointStiffness"] / factor} if model == "jcfpmSmooth" else {} # a bond's stiffness is E R, its area pi R^2
+		yield Point(case, model, "radius", inWords(finer), "spheres", {**base, **calibrated, **finer, **scaled}, None)
 	if case in ("shear 0.5", "compression") and (mode == "full" or model == "jcfpm") and f"{model} tension" in known: # what one set of parameters for all three gives
-		way = {"steps": int(sphereSteps[experiment] * wanted["steps"][0])}
+		way = {"steps": sphereSteps[experiment]}
 		foreign = {key: value for key, value in known[f"{model} tension"]["parameters"].items() if key != "unitStrength"}
 		if experiment == "compression": foreign["unitStrength"] = 10.7 # else bricks would never break
 		else: foreign["unitStrength"] = 1000
@@ -158,7 +157,7 @@ def stressOf(case):
 def inWords(settings):
 	"""A setting in a few words: what it is in mm, thousands of steps, and so on."""
 	words = {"steps": lambda n: f"{n / 1000:g}k steps", "size": lambda x: f"{1e3 * x:g} mm", "unitSize": lambda x: f"{1e3 * x:g}", "mortarSize": lambda x: f"/ {1e3 * x:g} mm",
-		"radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}", "damping": lambda x: f"{x} damping", "servo": lambda on: "servo" if on else "no servo", "jump": lambda on: "jump" if on else "no jump"}
+		"radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}", "units": lambda x: f"{x} units", "damping": lambda x: f"{x} damping", "servo": lambda on: "servo" if on else "no servo", "jump": lambda on: "jump" if on else "no jump"}
 	return " ".join(words.get(key, lambda x: f"{key} {x}")(value) for key, value in settings.items())
 
 

@@ -10,6 +10,7 @@ top edge by its area, displacement the mean slip across the mortar layer.
 Expected: peak 0.87 + 1.01 sigma, residual 0.73 sigma (N/mm2): the experiment's cohesion, friction and residual friction.
 Size means sqrt(mean area) unless sizeMeaning=edge. Loading starts at the first crack (jump) and is a fifth as fast as said (approach) until the peak is passed;
 servo=true lets the unbalanced force set the speed instead. kn, ks, cohesion, tension, friction and residualFriction (Table 5) show what governs the result.
+units=voronoi makes bricks of blocks, with edges of brickZone, that could crack; plain ones are one elastic block with zones of that size.
 halfRate=true repeats every run at half the loading rate and reports the change of the peak.
 """
 from math import radians
@@ -30,13 +31,14 @@ length, brickHeight, thickness, mortarHeight = 0.2, 0.05, 0.05, 0.015 # [m]
 brick = dict(young=16.7e9, poisson=0.2, density=1900) # Table 4
 mortar = dict(young=2.974e9, poisson=0.2, density=3250)
 jointDefaults = {'kn': 400e9, 'ks': 200e9, 'cohesion': 3e6, 'tension': 1.5e6, 'friction': 45.0, 'residualFriction': 36.0} # Table 5, all joints; angles in degrees
+brickJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6) # with units=voronoi; Table 9, since none is given for these bricks
 velocity = 0.2e-3 # [m/s]
 pressSteps = 2000
 
 p = scenario.parameters(
-	{**scenario.commonParameters(size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2), 'sigma': 0.5e6, 'stroke': 1e-3, 'approach': 0.2, 'jump': True, 'servo': False, 'brickZone': 8e-3,
+	{**scenario.commonParameters(size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2), 'sigma': 0.5e6, 'stroke': 1e-3, 'approach': 0.2, 'jump': True, 'servo': False, 'units': 'plain', 'brickZone': 8e-3,
 	 'merge': 0.1, **jointDefaults, 'halfRate': False, 'vtk': True},
-	{'sigma': scenario.notNegative, 'stroke': scenario.positive, 'approach': scenario.Rule(lambda f: 0 < f <= 1, 'must lie in (0, 1]'), 'brickZone': scenario.positive,
+	{'sigma': scenario.notNegative, 'stroke': scenario.positive, 'approach': scenario.Rule(lambda f: 0 < f <= 1, 'must lie in (0, 1]'), 'units': ('plain', 'voronoi'), 'brickZone': scenario.positive,
 	 'size': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer'),
 	 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)'), 'kn': scenario.positive, 'ks': scenario.positive, 'cohesion': scenario.notNegative, 'tension': scenario.notNegative,
 	 **dict.fromkeys(('friction', 'residualFriction'), scenario.Rule(lambda angle: 0 <= angle < 90, 'must lie in [0, 90) degrees'))})
@@ -52,8 +54,9 @@ def build(seed, dt):
 	O.materials.append(BlockMat(label='mortar', **mortar))
 	model = BlockModel(thickness=thickness, planeStress=p.plane == 'stress')
 	model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=p.size, sizeMeaning=p.sizeMeaning, lloyd=p.lloyd, seed=seed, mergeFraction=p.merge)
-	model.addRegion(rectangle(0, 0, length, low), 'unit', zoneSize=p.brickZone)
-	model.addRegion(rectangle(0, high, length, high + brickHeight), 'unit', zoneSize=p.brickZone)
+	for number, outline in enumerate((rectangle(0, 0, length, low), rectangle(0, high, length, high + brickHeight))):
+		if p.units == 'plain': model.addRegion(outline, 'unit', zoneSize=p.brickZone)
+		else: model.addVoronoi(outline, 'unit', size=p.brickZone, lloyd=3, seed=1000 * seed + number)
 	model.bond()
 	top = nodesWhere(model, lambda x, y: y > high + brickHeight - 1e-9)
 	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
@@ -80,6 +83,7 @@ def shear(seed, steps, label):
 		stop(model.groupTravelled('shear'), stress, broken)
 		progress(int(steps * model.groupTravelled('shear') / p.stroke))
 
+	withinBricks = [JointMat(material1='unit', material2='unit', **brickJoint)] * (p.units == 'voronoi')
 	O.dt = dt
 	O.engines = [
 		BlockContacts(),                                           # broken joints may slide on, part and meet again
@@ -87,7 +91,7 @@ def shear(seed, steps, label):
 		InteractionLoop([Ig2_Block_Block_BlockGeom()],            # opening and slip
 		                [Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
 		                        JointMat(material1='mortar', material2='mortar', **joint),
-		                        JointMat(material1='unit', material2='mortar', **joint)])],
+		                        JointMat(material1='unit', material2='mortar', **joint)] + withinBricks)],
 		                [Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
 		BlockTimeStepper(safety=p.safety),                         # scaled masses
 		BlockForces(),                                             # zones and joints, gathered node by node

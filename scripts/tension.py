@@ -16,6 +16,7 @@ Size means the mean edge, as in UDEC, unless sizeMeaning=sqrtArea. The stiffness
 
 Once the peak is passed the crack runs by itself, whatever the rate: inertia, which is that of scaled masses, limits its speed, and what
 oscillates behind it tears mortar joints beside its path. alpha=0.8 keeps that down (0.3 moves 8 % of TT1's cracks into the mortar).
+units=voronoi makes bricks of blocks, with edges of brickZone, that could crack; plain ones are one elastic block with zones of that size.
 halfRate=true repeats every run at half the loading rate and reports the change of the peak.
 """
 from math import radians
@@ -37,6 +38,7 @@ brick = dict(young=16.7e9, poisson=0.2, density=1900) # Table 1
 mortar = dict(young=2.974e9, poisson=0.2, density=1250)
 table2 = dict(kn=400e9, ks=200e9, frictionAngle=radians(38), cohesion=0.75e6, tension=0.75e6, dilationAngle=radians(4))
 table3 = dict(table2, cohesion=0.60e6, tension=0.60e6)
+brickJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6) # with units=voronoi; Table 9, since none is given for these bricks
 cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [MPa], its source
 	'TT1': (table2, table3, 2e-3, 0.35, 'Van der Pluijm 1992'),
 	'TT2': (table3, table3, 2e-3, 0.35, 'paper, Fig. 10'),
@@ -46,9 +48,9 @@ cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [M
 stroke, velocity = 0.03e-3, 0.02e-3 # [m], [m/s]
 
 p = scenario.parameters(
-	{**scenario.commonParameters(size=0.0, sizeMeaning='edge', lloyd=0, alpha=0.8, steps=40000), 'case': 'TT2', 'brickZone': 8e-3, 'merge': 0.2, 'jump': True, 'servo': False, 'halfRate': False, 'vtk': True},
+	{**scenario.commonParameters(size=0.0, sizeMeaning='edge', lloyd=0, alpha=0.8, steps=40000), 'case': 'TT2', 'units': 'plain', 'brickZone': 8e-3, 'merge': 0.2, 'jump': True, 'servo': False, 'halfRate': False, 'vtk': True},
 	{'case': tuple(cases), 'size': scenario.Rule(lambda s: 0 <= s < mortarHeight, 'must be positive and smaller than the mortar layer (0: of the case)'),
-	 'brickZone': scenario.positive, 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')})
+	 'units': ('plain', 'voronoi'), 'brickZone': scenario.positive, 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')})
 mortarJoint, unitJoint, caseSize, expectedPeak, source = cases[p.case]
 p.size = p.size or caseSize
 area, duration = length * thickness, stroke / velocity
@@ -62,8 +64,9 @@ def build(seed):
 	low, high = brickHeight, brickHeight + mortarHeight
 	model = BlockModel(thickness=thickness, planeStress=p.plane == 'stress')
 	model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=p.size, sizeMeaning=p.sizeMeaning, lloyd=p.lloyd, seed=seed, mergeFraction=p.merge)
-	model.addRegion(rectangle(0, 0, length, low), 'unit', zoneSize=p.brickZone)
-	model.addRegion(rectangle(0, high, length, high + brickHeight), 'unit', zoneSize=p.brickZone)
+	for number, outline in enumerate((rectangle(0, 0, length, low), rectangle(0, high, length, high + brickHeight))):
+		if p.units == 'plain': model.addRegion(outline, 'unit', zoneSize=p.brickZone)
+		else: model.addVoronoi(outline, 'unit', size=p.brickZone, lloyd=3, seed=1000 * seed + number)
 	model.bond()
 	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
 	model.drive('top', nodesWhere(model, lambda x, y: y > high + brickHeight - 1e-9), 'y', velocity=velocity, rampTime=0.05 * duration)
@@ -83,12 +86,13 @@ def pull(model, steps, progressLabel):
 		progress(O.iter)
 		stop(model.groupTravelled('top'), history[-1][1], history[-1][2])
 
+	withinBricks = [JointMat(material1='unit', material2='unit', **brickJoint)] * (p.units == 'voronoi')
 	O.dt = duration / steps
 	O.engines = [
 		InteractionLoop([Ig2_Block_Block_BlockGeom()],            # opening and slip
 		                [Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
 		                        JointMat(material1='mortar', material2='mortar', **mortarJoint),
-		                        JointMat(material1='unit', material2='mortar', **unitJoint)])],
+		                        JointMat(material1='unit', material2='mortar', **unitJoint)] + withinBricks)],
 		                [Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
 		BlockTimeStepper(safety=p.safety),                         # scaled masses
 		BlockForces(),                                             # zones and joints, gathered node by node

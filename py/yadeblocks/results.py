@@ -111,6 +111,7 @@ class Run:
 		self.quantities = {}
 		self.qualities = {}
 		self.table = None
+		self.hasPeak = None # not known without a curve of stress
 		self.costs = {"threads": threads}
 		self.steppingTime = None # CPU [s]
 
@@ -121,10 +122,13 @@ class Run:
 		self.quantities[name] = Quantity(name, unit, float(measured), expected, source)
 
 	def curve(self, **columns):
-		"""The run's history: columns of equal length, units in their names (displacement_mm, stress_MPa)."""
+		"""The run's history: columns of equal length, units in their names (displacement_mm, stress_MPa).
+
+		A stress that does not fall by 5 % after its highest value has no peak, which the report says."""
 		import pandas
 		self.table = pandas.DataFrame(columns)
 		self.table.insert(0, "seed", self.seed)
+		self.hasPeak = None if "stress_MPa" not in self.table else _falls(self.table.stress_MPa.to_numpy(float))
 
 	def quality(self, unbalanced_ratio_max=None, half_rate_change=None, energy_error=None):
 		"""How far the run may be trusted, as fractions: the largest unbalanced ratio; the change of the main quantity at half
@@ -219,8 +223,13 @@ class Results:
 		        "seed": getattr(self.parameters, "seed", None),
 		        "quantities": [quantity.asDict() for quantity in self.quantities],
 		        "cost": {**{key: costs.get(key) for key in keys}, **costs},
-		        "quality": {name: self._quality(name) for name in qualities},
+		        "quality": {**{name: self._quality(name) for name in qualities}, "without_peak": self.withoutPeak},
 		}
+
+	@property
+	def withoutPeak(self):
+		"""Seeds of the runs that ended before the stress fell."""
+		return [run.seed for run in self.runs if run.hasPeak is False]
 
 	def _quality(self, name):
 		"""Of the worst run; but the change at half the rate is that of the mean, since single runs scatter."""
@@ -255,14 +264,19 @@ class Results:
 
 	def _remarks(self):
 		result = jsonable(self.asDict())
-		quality = [f"{name} {value:.2g}" for name, value in result["quality"].items() if value is not None]
+		quality = [f"{name} {value:.2g}" for name, value in result["quality"].items() if isinstance(value, float)]
+		rising = ", ".join(map(str, self.withoutPeak))
 		cost = [
 		        f"{_short(result['cost'][key])} {unit}" for key, unit in
 		        (("cpu_s", "CPU s"), ("wall_s", "s"), ("steps", "steps"), ("us_per_step", "µs/step"), ("zones", "zones"), ("contacts", "contact points"),
 		         ("ns_per_zone", "ns/zone"), ("ns_per_contact", "ns/contact point"))
 		        if result["cost"].get(key) is not None
 		]
-		return ["quality: " + ", ".join(quality)] * bool(quality) + ["one run: " + ", ".join(cost)] * bool(cost) + [f"see {self.folder}"]
+		return [f"no peak in seed {rising}: the stress did not fall by 5 % after its highest value; a longer stroke would show whether it does"] * bool(rising) + ["quality: " + ", ".join(quality)] * bool(quality) + ["one run: " + ", ".join(cost)] * bool(cost) + [f"see {self.folder}"]
+
+
+def _falls(stress):
+	return bool(np.isfinite(stress).any() and stress[np.nanargmax(stress):].min() < 0.95 * np.nanmax(stress))
 
 
 def jsonable(value):

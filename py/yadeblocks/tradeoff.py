@@ -56,6 +56,7 @@ class Row(NamedTuple):
 	reference: dict # quantity: Error
 	failed: str = "" # reason, if any run failed
 	isReference: bool = False
+	rising: int = 0 # runs whose stress did not fall after its highest value: no peak
 
 	def worst(self, kind):
 		"""The largest rms over all quantities."""
@@ -85,7 +86,8 @@ def summarise(case, model, knob, label, names, results, truths, references, isRe
 	return Row(
 	        case, model, knob, label, len(good), float(np.median([result["cost"]["cpu_s"] for result in good.values()])) if good else math.nan,
 	        {name: mean(values) for name, values in measured.items()}, {name: errorOf(values, truths.get(name)) for name, values in measured.items()},
-	        {} if isReference else {name: against(name) for name in names}, failed, isReference
+	        {} if isReference else {name: against(name) for name in names}, failed, isReference,
+	        sum(bool((result.get("quality") or {}).get("without_peak")) for result in good.values())
 	)
 
 
@@ -149,6 +151,9 @@ def reading(case, rows, check, names, limits=(0.05, 0.02, 0.01)):
 	rates = [f"{row.model} {row.label} {_percent(row.rms('reference', peak))} ({row.cpu:.2g} s)" for row in spheres if row.knob == "steps" and not math.isnan(row.rms("reference", peak))]
 	if rates:
 		lines.append("Spheres against their own slow runs: " + "; ".join(rates) + ".")
+	rising = [f"{row.model} {row.label} ({row.rising} of {row.seeds})" for row in rows if row.rising]
+	if rising:
+		lines.append("The stress had not fallen when the run ended, so its highest value is no peak: " + "; ".join(rising) + ".")
 	for words, rows in (("Not all seeds were run (yet)", [row for row in rows if row.failed.endswith("not run")]), ("Failed, see the table", [row for row in rows if row.failed and not row.failed.endswith("not run")])):
 		if rows:
 			lines.append(f"{words}: " + "; ".join(f"{row.model} {row.label}" for row in rows) + ".")
@@ -196,7 +201,7 @@ def asRecords(rows):
 			for kind in ("laboratory", "reference"):
 				for part, number in zip(("error", "error scatter", "error rms"), getattr(row, kind).get(name) or (math.nan,) * 3):
 					record[f"{name} {kind} {part}"] = number
-		yield {**record, "failed": row.failed}
+		yield {**record, "without peak": row.rising, "failed": row.failed}
 
 
 def asMarkdown(rows, names):
@@ -206,7 +211,7 @@ def asMarkdown(rows, names):
 	head = ["case", "model", "setting", "seeds", "CPU s"] + [f"{shortNames[name]}, {kind}" for name in names for kind in ("laboratory", "reference")]
 	lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
 	for row in rows:
-		cells = [row.case, row.model, row.label + (" *" if id(row) in front else "") + (" (reference)" if row.isReference else ""), str(row.seeds), "-" if math.isnan(row.cpu) else f"{row.cpu:.2g}"]
+		cells = [row.case, row.model, row.label + (" *" if id(row) in front else "") + (" (reference)" if row.isReference else "") + (f", {row.rising} without peak" if row.rising else ""), str(row.seeds), "-" if math.isnan(row.cpu) else f"{row.cpu:.2g}"]
 		cells += [f"{_signed(error.mean)} ± {_percent(error.scatter)}" if error else "" for name in names for error in (row.laboratory.get(name), row.reference.get(name))]
 		lines.append("| " + " | ".join(cells) + " |" + (f" failed: {row.failed}" if row.failed and not row.seeds else ""))
 		if row.failed: lines[-1] = lines[-1].replace(f"| {row.seeds} |", f"| {row.seeds} ({row.failed}) |", 1).removesuffix(f" failed: {row.failed}")

@@ -173,7 +173,7 @@ def measured(p, peaks):
 				sum(range(200000)) # steps cost CPU time
 			run.add("peak", "MPa", peak, expected=0.4, source="a book")
 			run.add("stiffness", "N/mm3", np.float32(50))
-			run.curve(displacement_mm=[0, 0.01], stress_MPa=[0, peak])
+			run.curve(displacement_mm=[0, 0.01], stress_MPa=[0, peak]) # rising to the end
 			run.model(column(), steps=1000 * seed, ns_per_zone=5.)
 			run.quality(unbalanced_ratio_max=1e-3 * seed, half_rate_change=-0.02 / seed)
 	return found
@@ -189,13 +189,13 @@ def test_resultOfOneSeed(tmp_path, monkeypatch, capsys):
 	assert result["quantities"][0] == {"name": "peak", "unit": "MPa", "measured": 0.5, "expected": 0.4, "source": "a book", "error": pytest.approx(0.25)}
 	assert result["quantities"][1] == {"name": "stiffness", "unit": "N/mm3", "measured": 50, "expected": None, "source": None, "error": None}
 	assert [q["name"] for q in result["quantities"][2:]] == ["cracks_unit-mortar_tension", "cracks_unit-mortar_shear"]
-	assert result["quality"] == {"unbalanced_ratio_max": 0.003, "half_rate_change": pytest.approx(-0.02 / 3), "energy_error": None}
+	assert result["quality"] == {"unbalanced_ratio_max": 0.003, "half_rate_change": pytest.approx(-0.02 / 3), "energy_error": None, "without_peak": [3]}
 	cost = result["cost"]
 	assert set(cost) == set("cpu_s wall_s steps us_per_step blocks nodes zones contacts peak_rss_mb threads ns_per_zone".split())
 	assert (cost["steps"], cost["blocks"], cost["nodes"], cost["zones"], cost["contacts"], cost["threads"]) == (3000, 3, 12, 4, 4, 1)
 	assert 0 < cost["us_per_step"] * cost["steps"] <= 1e6 * cost["cpu_s"] # stepping is a part of the run
 	printed = capsys.readouterr().out
-	assert "+25.0 %" in printed and "a book" in printed
+	assert "+25.0 %" in printed and "a book" in printed and "no peak in seed 3" in printed
 
 
 def test_resultOfSeveralSeeds(tmp_path, monkeypatch, capsys):
@@ -213,6 +213,15 @@ def test_resultOfSeveralSeeds(tmp_path, monkeypatch, capsys):
 	curve = pandas.read_csv("out/shear/curve.csv")
 	assert list(curve) == ["seed", "displacement_mm", "stress_MPa"] and list(curve.seed) == [2, 2, 3, 3, 4, 4]
 	assert list(curve.stress_MPa) == [0, 0.3, 0, 0.4, 0, 0.65]
+
+
+@pytest.mark.parametrize("stress, peak", [([0, 1, 0.94], True), ([0, 1, 0.96], False), ([0, 1, 0.5, 0.99], True), ([0, 0.9, 0.5, 1], False), ([0], False), ([math.nan, 1, 0.5], True)])
+def test_aPeakIsWhatStressFallsFrom(stress, peak):
+	run = results.Run(1)
+	run.curve(displacement_mm=list(range(len(stress))), stress_MPa=stress)
+	assert run.hasPeak is peak
+	run.curve(displacement_mm=[0.0, 1.0]) # no stress, no judgement
+	assert run.hasPeak is None
 
 
 def test_whatIsNotANumberBecomesNull(tmp_path, monkeypatch):

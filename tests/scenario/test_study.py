@@ -252,6 +252,14 @@ def test_rowsCompareSeedWithSeed():
 	assert row.worst("reference") == pytest.approx(math.sqrt((0.05**2 + 0.1**2) / 2)) and math.isnan(row.rms("laboratory", "joint_stiffness"))
 
 
+def test_runsWithoutPeakAreTold():
+	results = {seed: {**result(0.4), "quality": {"without_peak": [seed] * (seed > 1)}} for seed in (1, 2, 3)}
+	row = tradeoff.summarise("tension", "cpm", "steps", "5k steps", tradeoff.quantities["tension"], results, {"peak_tensile_stress": 0.35}, {})
+	assert row.rising == 2
+	assert any("no peak: cpm 5k steps (2 of 3)" in line for line in tradeoff.reading("tension", [row], None, tradeoff.quantities["tension"]))
+	assert "5k steps, 2 without peak" in tradeoff.asMarkdown([row], tradeoff.quantities["tension"])
+
+
 def test_pareto():
 	points = [(1, 10), (2, 5), (3, 6), (2, 7), (4, 1), (5, 1), (math.nan, 0), (0.5, math.nan)]
 	assert tradeoff.pareto(points) == [0, 1, 4]
