@@ -4,7 +4,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 packages="yade libyade python3-yade libeigen3-dev libcgal-dev libboost-dev libboost-python-dev libboost-numpy-dev libboost-serialization-dev
-	libgmp-dev libmpfr-dev python3-dev python3-numpy python3-scipy python3-pandas python3-matplotlib python3-pytest python3-vtk9
+	libgmp-dev libmpfr-dev python3-dev python3-numpy python3-scipy python3-pandas python3-matplotlib python3-pytest python3-meshio
 	libgtest-dev cmake g++ ninja-build binutils"
 
 missing=""

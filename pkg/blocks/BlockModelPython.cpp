@@ -288,6 +288,30 @@ namespace {
 		return out;
 	}
 
+	py::object cornerTriangles(const py::object& self, int block)
+	{
+		BlockAssembly& a = arrays(self);
+		if (block < 0 || block >= a.blockCount())
+			throw std::invalid_argument("BlockModel.cornerTriangles: block must lie in [0, " + std::to_string(a.blockCount()) + "), got " + std::to_string(block));
+		std::vector<int>          corners; // grid points of the rings, one ring after the other
+		std::vector<blocks::Ring> rings;
+		for (int e = a.firstEdge[block], first = -1; e < a.firstEdge[block + 1]; ++e) {
+			const auto [node, next] = a.edgeNodes[e];
+			if (first < 0) rings.emplace_back(), first = node;
+			rings.back().push_back(a.reference[node]);
+			corners.push_back(node);
+			if (next == first) first = -1;
+		}
+		const blocks::Zones zones = blocks::cornerZones(blocks::Polygon { rings[0], { rings.begin() + 1, rings.end() } });
+		startNumpy();
+		np::ndarray out  = np::empty(py::make_tuple(zones.triangles.size(), 3), np::dtype::get_builtin<int>());
+		int*        data = reinterpret_cast<int*>(out.get_data());
+		for (const auto& triangle : zones.triangles)
+			for (int corner : triangle)
+				*data++ = corners[corner];
+		return out;
+	}
+
 	py::object contactPositions(const py::object& self)
 	{
 		BlockAssembly&     a = arrays(self);
@@ -382,6 +406,9 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 	        .def("zoneStress", py::make_function(&zoneStress), "Cauchy stress of every zone: sxx, syy, sxy, tension positive; shape (zones, 3) [Pa]. A copy.")
 	        .def("zoneQuality", &zoneQuality,
 	             "Quality of the mesh, a dictionary: minAngle, maxAngle [rad], minArea, maxArea [m2], worstAspect (longest edge by least height, 1 for an equilateral triangle).")
+	        .def("cornerTriangles", &cornerTriangles, (arg("block")),
+	             "Triangles between the corners of a block and of its holes (constrained Delaunay), to draw rigid blocks, which have no zones: grid points, counter-clockwise, shape (triangles, 3). A copy. "
+	             "Errors: ValueError for a block that is not there.")
 	        .def("contactPositions", py::make_function(&contactPositions), "Positions of the contact points, shape (contact points, 2) [m]. A copy.")
 	        .add_property("blockCount", &blockCount, "Number of blocks.")
 	        .add_property("nodeCount", &nodeCount, "Number of grid points.")

@@ -53,12 +53,12 @@ def principalStresses(stress):
 
 
 class BlocksExport:
-	"""Two collections for ParaView in `folder`, begun anew: blocks.pvd (zones; blocks without zones as polygons) and joints.pvd
+	"""Two collections for ParaView in `folder`, begun anew: blocks.pvd (zones; rigid blocks as triangles between their corners) and joints.pvd
 	(a line for every contact point, its half of the segment), each with a compressed .vtu file per step.
 
-	Zones: block, material (names in the field data), stress [Pa], principal stress [Pa]; grid points: displacement [m],
-	velocity [m/s]; joints: blocks, opening [m], slip [m], sigma [Pa], tau [Pa], status (0 intact, 1 broken in tension,
-	2 in shear, 3 never bonded)."""
+	Zones: block, material (number in O.materials' order), stresses sxx, syy, sxy and principal stresses s1, s2 [Pa]; grid points:
+	displacement [m], velocity [m/s]; joints: firstBlock, secondBlock, opening [m], slip [m], sigma [Pa], tau [Pa], status (0 intact,
+	1 broken in tension, 2 in shear, 3 never bonded)."""
 
 	def __init__(self, folder):
 		self.folder = Path(folder)
@@ -71,48 +71,35 @@ class BlocksExport:
 	def write(self, model, time):
 		"""Adds the model as it is now, at this time [s]."""
 		step = len(self.times)
-		_writeGrid(self.folder / f"blocks_{step:04}.vtu", _zoneGrid(model))
-		_writeGrid(self.folder / f"joints_{step:04}.vtu", _jointGrid(model))
+		_writeZones(self.folder / f"blocks_{step:04}.vtu", model)
+		_writeJoints(self.folder / f"joints_{step:04}.vtu", model)
 		self.times.append(float(time))
 		for name in ("blocks", "joints"):
 			_writeCollection(self.folder, name, self.times)
 
 
-def _zoneGrid(model):
-	from vtkmodules.vtkCommonCore import vtkStringArray
-	zones = np.asarray(model.zoneNodes).reshape(-1, 3)
-	zoneBlocks = np.repeat(np.arange(len(model.blockMaterial)), np.diff(model.firstZone))
-	outlines = blockOutlines(model)
+def _writeZones(path, model):
 	rigid = np.flatnonzero(np.diff(model.firstZone) == 0)
-	polygons = [max(outlines[block], key=len) for block in rigid] # of a rigid block the outer ring
-	blocks = np.concatenate([zoneBlocks, rigid])
-	stress = np.vstack([np.reshape(model.zoneStress(), (-1, 3)), np.zeros((len(rigid), 3))])
-
-	grid = _grid(np.asarray(model.position), [(_triangle, zones), *((_polygon, ring[None]) for ring in polygons)])
-	_addArrays(grid.GetPointData(), displacement=_spatial(model.position - model.reference), velocity=_spatial(model.velocity))
-	_addArrays(grid.GetCellData(), block=blocks.astype(np.int32), material=np.asarray(model.blockMaterial, np.int32)[blocks])
-	_addArrays(grid.GetCellData(), ("sxx", "syy", "sxy"), stress=stress)
-	_addArrays(grid.GetCellData(), ("s1", "s2"), principal=principalStresses(stress))
-	labels = vtkStringArray()
-	labels.SetName("materialLabels")
-	for label in model.materialLabels:
-		labels.InsertNextValue(label)
-	grid.GetFieldData().AddArray(labels)
-	return grid
-
-
-def _jointGrid(model):
-	lines = contactLines(model, model.position)
-	grid = _grid(lines.reshape(-1, 2), [(_line, np.arange(2 * len(lines)).reshape(-1, 2))])
-	_addArrays(
-	        grid.GetCellData(), opening=model.pointOpening, slip=model.pointSlip, sigma=model.pointSigma, tau=model.pointTau,
-	        status=np.asarray(model.pointStatus, np.uint8)
+	triangles = [np.reshape(model.zoneNodes, (-1, 3)), *map(model.cornerTriangles, rigid.tolist())]
+	blocks = np.repeat([*range(len(model.blockMaterial)), *rigid], [*np.diff(model.firstZone), *map(len, triangles[1:])]).astype(np.int32)
+	stress = np.zeros((len(blocks), 3)) # none in rigid blocks
+	stress[:len(triangles[0])] = model.zoneStress()
+	_writeGrid(
+	        path, model.position, "triangle", np.concatenate(triangles),
+	        {"displacement": _spatial(model.position - model.reference), "velocity": _spatial(model.velocity)},
+	        {"block": blocks, "material": np.asarray(model.blockMaterial, np.int32)[blocks],
+	         **dict(zip(("sxx", "syy", "sxy"), stress.T)), **dict(zip(("s1", "s2"), principalStresses(stress).T))}
 	)
-	_addArrays(grid.GetCellData(), ("first", "second"), blocks=np.repeat(np.asarray(model.segmentBlocks, np.int32), 2, axis=0))
-	return grid
 
 
-_line, _triangle, _polygon = 3, 5, 7 # VTK_LINE, VTK_TRIANGLE, VTK_POLYGON
+def _writeJoints(path, model):
+	lines = contactLines(model, model.position)
+	first, second = np.repeat(np.asarray(model.segmentBlocks, np.int32), 2, axis=0).T
+	_writeGrid(
+	        path, lines.reshape(-1, 2), "line", np.arange(2 * len(lines)).reshape(-1, 2), {},
+	        {"firstBlock": first, "secondBlock": second, "opening": model.pointOpening, "slip": model.pointSlip, "sigma": model.pointSigma,
+	         "tau": model.pointTau, "status": np.asarray(model.pointStatus, np.uint8)}
+	)
 
 
 def _spatial(vectors):
@@ -120,43 +107,12 @@ def _spatial(vectors):
 	return np.pad(vectors, ((0, 0), (0, 1)))
 
 
-def _grid(points, cellGroups):
-	"""An unstructured grid from points (n, 2) and groups of equal cells: (type, (m, corners) point indices)."""
-	from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-	from vtkmodules.vtkCommonCore import vtkPoints
-	from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
-	sizes = np.concatenate([np.full(len(cells), cells.shape[1]) for _, cells in cellGroups])
-	types = np.concatenate([np.full(len(cells), kind, np.uint8) for kind, cells in cellGroups])
-	corners = np.concatenate([cells.ravel() for _, cells in cellGroups])
-	offsets = np.concatenate([[0], np.cumsum(sizes)])
-
-	vtkCorners = vtkPoints()
-	vtkCorners.SetData(numpy_to_vtk(_spatial(points), deep=True))
-	cells = vtkCellArray()
-	cells.SetData(*(numpy_to_vtkIdTypeArray(array.astype(np.int64), deep=True) for array in (offsets, corners)))
-	grid = vtkUnstructuredGrid()
-	grid.SetPoints(vtkCorners)
-	grid.SetCells(numpy_to_vtk(types, deep=True), cells)
-	return grid
-
-
-def _addArrays(data, components=(), **arrays):
-	from vtkmodules.util.numpy_support import numpy_to_vtk
-	for name, values in arrays.items():
-		array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-		array.SetName(name)
-		for i, component in enumerate(components):
-			array.SetComponentName(i, component)
-		data.AddArray(array)
-
-
-def _writeGrid(path, grid):
-	from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
-	writer = vtkXMLUnstructuredGridWriter() # appended, base64 and zlib: its defaults
-	writer.SetFileName(str(path))
-	writer.SetInputData(grid)
-	if not writer.Write():
-		raise OSError(f"cannot write {path}")
+def _writeGrid(path, points, kind, cells, pointData, cellData):
+	"""A compressed .vtu file of equal cells, (m, corners) point indices."""
+	from meshio import Mesh, vtu # not VTK: ParaView's Python and YADE's VTK cannot live in one process
+	plain = lambda values: np.array(values, order="C") # meshio takes bytes as they lie
+	vtu.write(path, Mesh(_spatial(points), [(kind, plain(cells))], {name: plain(values) for name, values in pointData.items()},
+		{name: [plain(values)] for name, values in cellData.items()}))
 
 
 def _writeCollection(folder, name, times):

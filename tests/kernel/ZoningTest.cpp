@@ -151,6 +151,23 @@ TEST(CornerZones, addNoPoint)
 	}
 }
 
+TEST(CornerZones, goRoundHoles)
+{
+	const Polygon plate { { { 0, 0 }, { 4, 0 }, { 4, 4 }, { 0, 4 } }, { { { 1, 1 }, { 1, 3 }, { 2, 3 }, { 2, 1 } }, { { 2.5, 1 }, { 2.5, 2 }, { 3, 1.5 } } } };
+	const Zones   zones = cornerZones(plate);
+	EXPECT_EQ(zones.points.size(), 11u);
+	EXPECT_EQ(zones.triangles.size(), 11u + 2 * 2 - 2); // every triangulation of a polygon with two holes
+	Real area = 0;
+	for (const auto& t : zones.triangles) {
+		const Vec2 &a = zones.points[t[0]], &b = zones.points[t[1]], &c = zones.points[t[2]];
+		area += cross(b - a, c - a) / 2;
+		const Vec2 centre = (a + b + c) / 3;
+		EXPECT_FALSE(centre.x() > 1 && centre.x() < 2 && centre.y() > 1 && centre.y() < 3) << "within the hole";
+	}
+	EXPECT_NEAR(area, 16 - 2 - 0.25, 1e-14);
+	expectRefused([&] { cornerZones(Polygon { plate.outer, { { { 3, 3 }, { 3, 5 }, { 3.5, 3 } } } }); }, { "cornerZones" });
+}
+
 TEST(CornerZones, areDelaunay)
 {
 	// Of a quadrilateral's two diagonals, the one whose opposite angles add up to less than 180 degrees: here 0-2 or 1-3.

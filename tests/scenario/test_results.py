@@ -41,7 +41,8 @@ def column():
 	        segmentNodes=np.array([(2, 3, 4, 5), (6, 7, 8, 9)], np.int32), segmentBlocks=np.array([(0, 1), (1, 2)], np.int32),
 	        segmentParameters=np.array([(0., 1., 1., 0.), (0., 1 / 3, 1., 2 / 3)]), segmentArea=np.array([75e-6, 25e-6]),
 	        pointOpening=np.array([1., 2., 3., 4.]), pointSlip=np.array([5., 6., 7., 8.]), pointSigma=np.array([9., 10., 11., 12.]),
-	        pointTau=np.array([13., 14., 15., 16.]), pointStatus=np.array([1, 2, 3, 3], np.uint8), zoneStress=lambda: stress
+	        pointTau=np.array([13., 14., 15., 16.]), pointStatus=np.array([1, 2, 3, 3], np.uint8), zoneStress=lambda: stress,
+	        cornerTriangles={2: np.array([(8, 9, 10), (8, 10, 11)], np.int32)}.get
 	)
 
 
@@ -263,14 +264,10 @@ def test_outlinesWithHoles():
 
 
 def readBack(path):
-	vtk = pytest.importorskip("vtkmodules.vtkIOXML")
-	from vtkmodules.util.numpy_support import vtk_to_numpy
-	reader = vtk.vtkXMLUnstructuredGridReader()
-	reader.SetFileName(str(path))
-	reader.Update()
-	grid = reader.GetOutput()
-	arrays = lambda data: {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
-	return grid, arrays(grid.GetPointData()), arrays(grid.GetCellData())
+	"""The mesh, and its data over all cells."""
+	import meshio
+	mesh = meshio.read(path)
+	return mesh, {name: np.concatenate(parts) for name, parts in mesh.cell_data.items()}
 
 
 def test_exportReadsBack(tmp_path):
@@ -285,29 +282,27 @@ def test_exportReadsBack(tmp_path):
 			ElementTree.parse(tmp_path / "out" / steps[-1].get("file"))
 	assert len(steps) == 2
 
-	grid, points, cells = readBack(tmp_path / "out" / "blocks_0001.vtu")
-	assert grid.GetNumberOfCells() == 5 and grid.GetCellType(0) == 5 and grid.GetCellType(4) == 7 # the platen is a polygon
-	assert grid.GetPoint(4) == pytest.approx((1e-6, 1e-3 + 2e-6, 0))
-	assert [grid.GetCell(3).GetPointId(i) for i in range(3)] == [4, 6, 7]
+	mesh, cells = readBack(tmp_path / "out" / "blocks_0001.vtu")
+	assert [(block.type, len(block.data)) for block in mesh.cells] == [("triangle", 6)] # four zones, two of the platen, which has none
+	assert mesh.points[4] == pytest.approx((1e-6, 1e-3 + 2e-6, 0))
+	assert list(mesh.cells[0].data[3]) == [4, 6, 7] and mesh.cells[0].data[4:].tolist() == [[8, 9, 10], [8, 10, 11]]
+	points = mesh.point_data
 	assert points["displacement"][3] == pytest.approx([0, 0, 0]) and points["displacement"][5] == pytest.approx([1e-6, 2e-6, 0])
 	assert points["velocity"][0] == pytest.approx([0.1, 0.2, 0])
-	assert list(cells["block"]) == [0, 0, 1, 1, 2] and list(cells["material"]) == [0, 0, 1, 1, 2]
-	assert cells["stress"][:4] == pytest.approx(model.zoneStress())
-	assert grid.GetCellData().GetArray("stress").GetComponentName(2) == "sxy"
+	assert list(cells["block"]) == [0, 0, 1, 1, 2, 2] and list(cells["material"]) == [0, 0, 1, 1, 2, 2]
+	assert np.column_stack([cells[name] for name in ("sxx", "syy", "sxy")]) == pytest.approx(np.vstack([model.zoneStress(), np.zeros((2, 3))]))
 	# Mohr's circle of (1, 2, 3): centre 1.5, radius sqrt(0.25 + 9)
-	assert cells["principal"][:2] == pytest.approx(np.array([(5, 1), (1.5 + math.sqrt(9.25), 1.5 - math.sqrt(9.25))]))
-	assert grid.GetFieldData().GetAbstractArray("materialLabels").GetValue(2) == "platen"
+	assert np.column_stack([cells["s1"], cells["s2"]])[:2] == pytest.approx(np.array([(5, 1), (1.5 + math.sqrt(9.25), 1.5 - math.sqrt(9.25))]))
 
-	grid, _, cells = readBack(tmp_path / "out" / "joints_0001.vtu")
-	assert grid.GetNumberOfCells() == 4 and grid.GetCellType(0) == 3
-	assert grid.GetCell(1).GetBounds()[:4] == pytest.approx((0.5e-6, 1.5e-3 + 0.5e-6, 1.001e-3, 1.001e-3))
+	mesh, cells = readBack(tmp_path / "out" / "joints_0001.vtu")
+	assert [(block.type, len(block.data)) for block in mesh.cells] == [("line", 4)]
+	assert mesh.points[mesh.cells[0].data[1]] == pytest.approx(np.array([(0.5e-6, 1.001e-3, 0), (1.5e-3 + 0.5e-6, 1.001e-3, 0)]))
 	for name in ("Opening", "Slip", "Sigma", "Tau", "Status"):
 		assert list(cells[name.lower()]) == list(getattr(model, "point" + name))
-	assert cells["blocks"].tolist() == [[0, 1], [0, 1], [1, 2], [1, 2]]
+	assert list(cells["firstBlock"]) == [0, 0, 1, 1] and list(cells["secondBlock"]) == [1, 1, 2, 2]
 
 
 def test_exportBeginsAnew(tmp_path):
-	pytest.importorskip("vtkmodules.vtkIOXML")
 	for steps in (3, 1):
 		blocks = export.BlocksExport(tmp_path)
 		for step in range(steps):
@@ -358,13 +353,13 @@ def test_picturesAreDrawn(tmp_path):
 
 
 def test_nothingHeavyIsImportedEarly():
-	"""A scenario that does not draw does not pay for matplotlib, vtk and pandas (0.5 to 1 s each)."""
+	"""A scenario that does not draw does not pay for matplotlib, meshio and pandas (0.5 to 1 s each)."""
 	code = f"""if True:
 		import sys, types
 		package = sys.modules["yadeblocks"] = types.ModuleType("yadeblocks")
 		package.__path__ = [{str(package)!r}]
 		from yadeblocks import scenario, results, pictures, export, progress
-		print([name for name in ("matplotlib", "vtkmodules", "vtk", "pandas", "scipy") if name in sys.modules])"""
+		print([name for name in ("matplotlib", "meshio", "pandas", "scipy") if name in sys.modules])"""
 	assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"
 
 

@@ -539,21 +539,28 @@ def test_otherShapes(shape):
 def test_picturesAndExport(tmp_path):
 	from yadeblocks.export import BlocksExport, blockOutlines
 	from yadeblocks.pictures import drawCracks
-	from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+	import meshio
 	model = scene()
 	O.run(50, True)
 	export = BlocksExport(tmp_path)
 	export.write(model, O.time)
 	drawCracks(tmp_path / 'cracks.png', model)
 	assert (tmp_path / 'cracks.png').stat().st_size > 1000
-	reader = vtkXMLUnstructuredGridReader()
-	reader.SetFileName(str(tmp_path / 'blocks_0000.vtu'))
-	reader.Update()
-	grid = reader.GetOutput()
+	mesh = meshio.read(tmp_path / 'blocks_0000.vtu')
 	rigid = np.flatnonzero(np.diff(model.firstZone) == 0)
-	cells = [i for i in range(grid.GetNumberOfCells()) if grid.GetCellType(i) == 7]
-	assert len(rigid) == 3 and grid.GetNumberOfCells() == model.zoneCount + 3
-	assert [grid.GetCellData().GetArray('block').GetValue(i) for i in cells] == list(rigid)
-	assert [grid.GetCell(i).GetNumberOfPoints() for i in cells] == [4, 4, 3]
-	velocity = grid.GetPointData().GetArray('velocity')
-	assert velocity.GetTuple(int(model.firstNode[rigid[1]]))[0] == pytest.approx(2e-4, rel=0.2) # the driven platen's grid points move
+	triangles, blocks = mesh.cells[0].data[model.zoneCount:], mesh.cell_data['block'][0][model.zoneCount:]
+	assert len(mesh.cells) == 1 and blocks.tolist() == np.repeat(rigid, (2, 2, 1)).tolist() # two rectangles, a wedge
+	assert all(model.firstNode[block] <= node < model.firstNode[block + 1] for block, nodes in zip(blocks, triangles) for node in nodes)
+	velocity = mesh.point_data['velocity']
+	assert velocity[model.firstNode[rigid[1]]][0] == pytest.approx(2e-4, rel=0.2) # the driven platen's grid points move
+
+
+def test_rigidBlocksAreDrawnWithTheirHoles():
+	O.materials.append(BlockMat(label='steel', young=200e9, poisson=0.3, density=7800))
+	model = BlockModel(thickness=1)
+	notched = model.addRigid([(0, 0), (4, 0), (4, 4), (2, 3), (0, 4)], 'steel', holes=[[(1, 1), (1, 2), (2, 2)], [(3, 1), (3, 2), (3.5, 1)]])
+	(x0, y0), (x1, y1), (x2, y2) = np.moveaxis(model.reference[model.cornerTriangles(notched)], (1, 2), (0, 1))
+	areas = ((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)) / 2
+	assert (areas > 0).all() and areas.sum() == pytest.approx(16 - 2 - 0.5 - 0.25)
+	for wrong in (-1, 1):
+		says(str(pytest.raises(ValueError, model.cornerTriangles, wrong).value), 'BlockModel.cornerTriangles', 'block', str(wrong))

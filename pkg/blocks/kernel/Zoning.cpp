@@ -337,10 +337,12 @@ Zones fanZones(const Ring& ring)
 	return checked(zones, "fanZones");
 }
 
-Zones cornerZones(const Ring& ring)
+Zones cornerZones(const Ring& ring) { return cornerZones(Polygon { ring, {} }); }
+
+Zones cornerZones(const Polygon& polygon)
 {
-	requireSimple({ ring, {} }, "cornerZones");
-	Zones zones = outlineOf({ ring, {} });
+	requireSimple(polygon, "cornerZones");
+	Zones zones = outlineOf(polygon);
 	Mesh  mesh;
 	triangulateOutline(mesh, zones);
 	takeTriangles(mesh, zones);

@@ -17,7 +17,8 @@ struct Zones {
 /// the centroid of the region that does. Refuses a ring that no point sees whole.
 Zones fanZones(const Ring& ring);
 
-/// The corners alone, joined by the constrained Delaunay triangulation. Works for any simple ring.
+/// The corners alone, joined by the constrained Delaunay triangulation. Works for any simple polygon, with holes.
+Zones cornerZones(const Polygon& polygon);
 Zones cornerZones(const Ring& ring);
 
 /// A rectangle (in any direction) as a grid of cells with edges <= zoneSize, two triangles each, diagonals alternating.
