@@ -1,5 +1,5 @@
 # yade-blocks, GPL-2.0-or-later
-"""Error against run time: our blocks and YADE's bonded spheres in tension, shear and compression.
+"""Error against run time: our blocks, YADE's bonded spheres and its polyhedra in tension, shear and compression.
 
 	scripts/benchmark.sh [mode=quick|full|calibrate] [experiment=tension|shear|compression] [key=value ...]
 
@@ -9,10 +9,11 @@ NAME-MODE.png (error over CPU seconds, and its reading), NAME-MODE.md (table and
 
 	mode=quick      less than ten minutes on two idle cores
 	mode=full       every knob, all stresses, finer packings: about two hours on two idle cores
-	mode=calibrate  goes on with the calibration of the spheres (model=NAME: of this one only) from scripts/calibrated.json, and writes it; a report says which
+	mode=calibrate  goes on with the calibration of YADE's models (model=NAME: of this one only) from scripts/calibrated.json, and writes it; a report says which
 	                calibrations were made with other code, targets, packings or ties than today's
 
-Errors are against the laboratory and against a slow run of the same specimen, whose own convergence is shown by one twice as fast.
+Errors are against the laboratory and against a slow run of the same specimen, whose own convergence is shown by one twice as fast (references of other
+specimens than the usual are half as slow).
 retry=true runs again what failed; jobs=1 keeps processes from slowing each other down, which shows in CPU times.
 """
 import json
@@ -35,12 +36,12 @@ from typing import NamedTuple, Optional
 import pandas
 
 from yadeblocks import calibration, curves, scenario, study, tradeoff, tradeoffpicture
-from yadeblocks.jobs import Job, Jobs, yadeVersion
+from yadeblocks.jobs import Job, Jobs, machine, yadeVersion
 
 # ---- parameters
 
-modelsOf = { # of spheres; planes and MortarMat have nothing to offer to a prism whose bricks split
-	"tension": ("jcfpm", "jcfpmSmooth", "cohfrict", "cpm", "lourenco"), "shear": ("jcfpm", "jcfpmSmooth", "cohfrict", "cpm", "lourenco"),
+modelsOf = { # of YADE: spheres, and polyhedra with MortarMat; planes and MortarMat, which has no friction once broken, have nothing to offer to a prism whose bricks split
+	"tension": ("jcfpm", "jcfpmSmooth", "cohfrict", "cpm", "lourenco", "polyhedra"), "shear": ("jcfpm", "jcfpmSmooth", "cohfrict", "cpm", "lourenco", "polyhedra"),
 	"compression": ("jcfpm", "cohfrict", "cpm")}
 
 p = scenario.parameters(
@@ -60,6 +61,7 @@ middle = ("tension", "shear 0.5", "compression") # of three stresses one is enou
 def steps(*numbers): return [("steps", {}, {"steps": n}) for n in numbers]
 def way(knob, n, *values, **more): return [(knob, {}, {"steps": n, knob: value, **more}) for value in values]
 def specimen(knob, n, *values): return [(knob, value if isinstance(value, dict) else {knob: value}, {"steps": n}) for value in values]
+def oneSet(n): return [("one set", {"cohesion": 0.6e6, "tension": 0.6e6, "friction": 38.0, "residualFriction": 38.0}, {"steps": n})] # Table 3 in shear
 def layers(unit, mortar): return {"unitSize": unit, "mortarSize": mortar}
 
 blocks = { # a setting that a scenario refuses is in the table as failed
@@ -72,17 +74,17 @@ blocks = { # a setting that a scenario refuses is in the table as failed
 	"full": {
 		"tension": steps(1000, 2500, 5000, 10000, 20000, 40000, 80000) + way("alpha", 10000, 0.1, 0.3, 0.5) + way("alpha", 40000, 0.1, 0.3, 0.5)
 			+ way("damping", 10000, "adaptive", "none") + way("damping", 40000, "adaptive", "none") + way("jump", 5000, False) + way("jump", 20000, False)
-			+ way("servo", 2500, True) + way("servo", 10000, True) + way("servo", 10000, True, jump=False) + way("safety", 20000, 0.4) + way("safety", 20000, 0.9, alpha=0.1)
+			+ way("servo", 2500, True) + way("servo", 10000, True) + way("servo", 10000, True, jump=False) + way("safety", 20000, 0.4) + way("safety", 20000, 0.9, alpha=0.1) + way("alpha", 20000, 0.1)
 			+ specimen("size", 40000, 1e-3, 1.5e-3, 3e-3, 6e-3) + specimen("plane", 40000, "stress") + specimen("units", 40000, "voronoi"),
-		**dict.fromkeys(("shear 0.1", "shear 0.5", "shear 1.0"), steps(1500, 3000, 6000, 12000, 24000, 48000) + way("alpha", 12000, 0.1, 0.5, 0.8)
-			+ way("damping", 12000, "adaptive", "none") + way("jump", 12000, False) + way("servo", 3000, True) + way("servo", 12000, True) + way("servo", 12000, True, jump=False)
+		**dict.fromkeys(("shear 0.1", "shear 0.5", "shear 1.0"), steps(1500, 3000, 6000, 12000, 24000, 48000) + oneSet(24000) + way("alpha", 12000, 0.1, 0.5, 0.8)
+			+ way("damping", 12000, "adaptive", "none") + way("jump", 12000, False) + way("servo", 3000, True) + way("servo", 3000, True, jump=False)
 			+ way("safety", 12000, 0.4, 0.85) + specimen("size", 12000, 2.5e-3, 5e-3) + specimen("plane", 12000, "stress") + specimen("units", 12000, "voronoi")),
 		"compression": steps(2500, 5000, 10000, 20000, 30000, 60000) + way("alpha", 10000, 0.1, 0.4, 0.8) + way("alpha", 30000, 0.1, 0.4, 0.8)
-			+ way("damping", 30000, "adaptive", "none") + way("jump", 10000, False) + way("servo", 5000, True) + way("servo", 20000, True) + way("servo", 20000, True, jump=False)
+			+ way("damping", 30000, "adaptive", "none") + way("jump", 10000, False) + way("servo", 5000, True) + way("servo", 5000, True, jump=False)
 			+ way("safety", 20000, 0.4, 0.85) + specimen("size", 30000, layers(15e-3, 4.5e-3), layers(7e-3, 3e-3)) + specimen("plane", 30000, "stress") + specimen("units", 30000, "plain")}}
-spheres = { # multiples of the steps (slow: of the reference's) and radius they were calibrated with; packings: at most so many
-	"quick": {"steps": (1,), "slow": None, "radius": (), "stresses": ("0.5",), "packings": 4, "without": [("lourenco", "shear")]}, # it takes four times as long as the others
-	"full": {"steps": (0.25, 0.5, 1, 2), "slow": 4, "radius": (0.7,), "stresses": ("0.1", "0.5", "1.0"), "packings": 1000, "without": []}}
+spheres = { # multiples of the steps and radius they were calibrated with (slow: of the references' steps where they are not 4; None: no references); packings: at most so many
+	"quick": {"steps": (1,), "slow": None, "radius": (), "stresses": ("0.5",), "packings": 4, "without": [("lourenco", "shear"), ("polyhedra", "shear")]}, # they take four times as long as the others
+	"full": {"steps": (0.25, 0.5, 1, 2), "slow": {"lourenco shear": 2, "polyhedra shear": 2}, "radius": (0.7,), "stresses": ("0.1", "0.5", "1.0"), "packings": 1000, "without": []}}
 radius = {"tension": 1.5e-3, "shear": 2e-3, "compression": 2.5e-3} # of the spheres in the mortar [m], as in spheres.py
 sphereSteps = {"tension": 20000, "shear": 8000, "compression": 10000} # as in spheres.py
 
@@ -104,50 +106,59 @@ class Point(NamedTuple):
 
 
 def points(mode, experiment):
-	"""All points of an experiment: blocks, their references (slow, and half as slow), spheres."""
+	"""All points of an experiment: blocks, their references (slow, and half as slow), YADE's own models."""
 	known = json.loads((house / "scripts" / "calibrated.json").read_text())
 	for case, lines in blocks[mode].items():
 		if case.split()[0] == experiment: yield from blockPoints(mode, case, lines)
 	for case in ([experiment] if experiment != "shear" else ["shear " + stress for stress in spheres[mode]["stresses"]]):
 		for model in modelsOf[experiment]:
 			if (model, experiment) in spheres[mode]["without"]: continue
-			if f"{model} {experiment}" in known: yield from spherePoints(mode, case, model, known)
+			if f"{model} {experiment}" in known: yield from yadePoints(mode, case, model, known)
 
 
 def blockPoints(mode, case, lines):
 	experiment, base = case.split()[0], {"vtk": False, **stressOf(case)}
-	reference = lambda specimen: {**base, **specimen, "steps": slow[mode][experiment]}
+	reference = lambda specimen: {**base, **specimen, "steps": slow[mode][experiment] // (2 if specimen else 1)}
 	specimens = []
 	for knob, specimen, way in lines:
-		compared = (mode == "full" and case in middle) if specimen else (mode == "full" or case in middle)
-		yield Point(case, "blocks", knob, inWords({**way, **specimen}), experiment, {**base, **specimen, **way}, reference(specimen) if compared else None)
+		compared = (mode == "full" and case in middle and knob != "one set") if specimen else (mode == "full" or case in middle)
+		label = inWords({**way, **specimen}) if knob != "one set" else inWords(way) + ", the joints of tension"
+		yield Point(case, "blocks", knob, label, experiment, {**base, **specimen, **way}, reference(specimen) if compared else None)
 		if compared and specimen not in specimens: specimens.append(specimen)
 	for specimen in specimens:
-		yield Point(case, "blocks", "reference", inWords({"steps": slow[mode][experiment], **specimen}), experiment, reference(specimen), reference(specimen), True)
+		yield Point(case, "blocks", "reference", inWords({"steps": reference(specimen)["steps"], **specimen}), experiment, reference(specimen), reference(specimen), True)
 	half = {**base, "steps": slow[mode][experiment] // 2}
 	if {} in specimens: yield Point(case, "blocks", "half as slow", inWords({"steps": half["steps"]}), experiment, half, reference({}))
 
 
-def spherePoints(mode, case, model, known):
-	experiment = case.split()[0]
-	base = {"experiment": experiment, "model": model, **stressOf(case)}
+def yadePoints(mode, case, model, known):
+	"""Those of one of YADE's own models."""
+	experiment, wanted = case.split()[0], spheres[mode]
+	script = "polyhedra" if model == "polyhedra" else "spheres"
+	base = {"experiment": experiment, **({"model": model} if script == "spheres" else {}), **stressOf(case)}
 	calibrated = known[f"{model} {experiment}"]["parameters"]
-	wanted = spheres[mode]
-	slowest = {**base, **calibrated, "steps": wanted["slow"] * sphereSteps[experiment]} if wanted["slow"] and case in middle else None
-	for part in wanted["steps"] if case in middle else (1,):
+	factor = wanted["slow"] and wanted["slow"].get(f"{model} {experiment}", 4)
+	slowest = {**base, **calibrated, "steps": factor * sphereSteps[experiment]} if factor and case in middle else None
+	for part in [part for part in wanted["steps"] if not factor or part < factor] if case in middle else (1,):
 		way = {"steps": int(part * sphereSteps[experiment])}
-		yield Point(case, model, "steps", inWords(way), "spheres", {**base, **calibrated, **way}, slowest)
-	if slowest: yield Point(case, model, "reference", inWords({"steps": slowest["steps"]}), "spheres", slowest, slowest, True)
+		yield Point(case, model, "steps", inWords(way), script, {**base, **calibrated, **way}, slowest)
+	if slowest: yield Point(case, model, "reference", inWords({"steps": slowest["steps"]}), script, slowest, slowest, True)
+	if script == "polyhedra": return # cells of the blocks' size
 	for factor in wanted["radius"] if case in middle else ():
-		finer = {"steps": sphereSteps[experiment], "radius": round(factor * radius[experiment], 7)}
-		scaled = {"jointStiffness": calibrated["jointStiffness"] / factor} if model == "jcfpmSmooth" else {} # a bond's stiffness is E R, its area pi R^2
-		yield Point(case, model, "radius", inWords(finer), "spheres", {**base, **calibrated, **finer, **scaled}, None)
+		finer = {"steps": round(sphereSteps[experiment] / factor), "radius": round(factor * radius[experiment], 7)} # waves need as many steps more
+		yield Point(case, model, "radius", inWords(finer), script, {**base, **smaller(model, calibrated, factor), **finer}, None)
+	if case == "shear 0.5" and model in ("jcfpm", "cohfrict", "cpm"): # whether any friction would give the residual
+		way = {"steps": sphereSteps[experiment], "friction": 5.0, "residualFriction": 5.0}
+		yield Point(case, model, "low friction", "friction 5 degrees", script, {**base, **calibrated, **way}, None)
 	if case in ("shear 0.5", "compression") and (mode == "full" or model == "jcfpm") and f"{model} tension" in known: # what one set of parameters for all three gives
-		way = {"steps": sphereSteps[experiment]}
-		foreign = {key: value for key, value in known[f"{model} tension"]["parameters"].items() if key != "unitStrength"}
-		if experiment == "compression": foreign["unitStrength"] = 10.7 # else bricks would never break
-		else: foreign["unitStrength"] = 1000
-		yield Point(case, model, "one set", "the parameters found in tension", "spheres", {**base, **foreign, **way}, None)
+		foreign = smaller(model, known[f"{model} tension"]["parameters"], radius[experiment] / radius["tension"])
+		foreign = {**foreign, "unitStrength": 10.7 if experiment == "compression" else 1000} # else the prism's bricks would never break
+		yield Point(case, model, "one set", "the parameters found in tension", script, {**base, **foreign, "steps": sphereSteps[experiment]}, None)
+
+
+def smaller(model, parameters, factor):
+	"""Parameters for spheres of another radius: a bond's stiffness is E R, a plane's the joint's stiffness times pi R^2."""
+	return {**parameters, "jointStiffness": parameters["jointStiffness"] / factor} if model == "jcfpmSmooth" else parameters
 
 
 def stressOf(case):
@@ -161,10 +172,12 @@ def inWords(settings):
 	return " ".join(words.get(key, lambda x: f"{key} {x}")(value) for key, value in settings.items())
 
 
-def truths(case, results):
-	"""The laboratory's values; the stiffness in theory is that of the specimen as its scenario says."""
+def truths(case, model, results):
+	"""The laboratory's values; the stiffness in theory is that of the specimen as its scenario says. Broken bonds of MortarMat on polyhedra
+	carry nothing, so they have no residual stress to compare."""
 	said = next((result["expected"] for result in results.values() if result and "expected" in result), {})
 	known = {name: value for name, (value, source) in curves.expectations(case.split()[0], stressOf(case).get("sigma", 0)).items()}
+	if model == "polyhedra": known.pop("residual_shear_stress", None)
 	return {**known, **{name: said[name] for name in said if name == "joint_stiffness"}}
 
 
@@ -175,18 +188,17 @@ def report(jobs, experiment, all):
 	rows = []
 	for point in all:
 		results = get(point, point.settings)
-		rows.append(tradeoff.summarise(point.case, point.model, point.knob, point.label, names, results, truths(point.case, results), get(point, point.slow) if point.slow else {}, point.isReference))
+		rows.append(tradeoff.summarise(point.case, point.model, point.knob, point.label, names, results, truths(point.case, point.model, results), get(point, point.slow) if point.slow else {}, point.isReference))
 	cases = {case: [row for row in rows if row.case == case] for case in dict.fromkeys(row.case for row in rows)}
-	texts = []
-	for case, mine in cases.items():
-		check = next((row.reference.get(names[0]) for row in mine if row.model == "blocks" and row.knob == "half as slow"), None)
-		texts.append((case, tradeoff.reading(case, mine, check, names)))
-	lines = [f"{case}: {line}" if len(cases) > 1 else line for case, lines in texts for line in lines] + list(staleCalibrations(experiment))
+	most = lambda case: 10 if case in middle and len(cases) == 1 else 8 if case in middle else 3
+	texts = {case: tradeoff.reading(mine, names, most=most(case)) for case, mine in cases.items()}
+	lines = [f"{case}: {line}" if len(cases) > 1 else line for case in sorted(cases, key=lambda case: case not in middle) for line in texts[case]] + list(staleCalibrations(experiment))
+	measured = f"CPU seconds of {machine()}, {p.jobs} runs at a time."
 	place = jobs.folder / f"{experiment}-{p.mode}"
 	pandas.DataFrame(tradeoff.asRecords(rows)).to_csv(f"{place}.csv", index=False, float_format="%.6g")
 	pandas.DataFrame(runRecords(jobs, all)).to_csv(f"{place}-runs.csv", index=False, float_format="%.6g")
-	Path(f"{place}.md").write_text(f"# {experiment}, {p.mode} mode\n\n" + "\n".join("- " + line for line in lines) + "\n\n" + tradeoff.asMarkdown(rows, names) + "\n")
-	tradeoffpicture.drawTradeoff(f"{place}.png", cases, names, lines, title=f"{experiment}: error over CPU time, {max(len(point.seeds) for point in all)} seeds a point" + f", {min(p.seeds, spheres[p.mode]['packings'])} packings of spheres")
+	Path(f"{place}.md").write_text(f"# {experiment}, {p.mode} mode\n\n{measured}\n\n" + "\n".join("- " + line for line in lines) + "\n\n" + tradeoff.asMarkdown(rows, names) + "\n")
+	tradeoffpicture.drawTradeoff(f"{place}.png", cases, names, lines, title=f"{experiment}: error over CPU time, {max(len(point.seeds) for point in all)} seeds a point, {min(p.seeds, spheres[p.mode]['packings'])} packings of spheres; {measured}")
 	print(f"\n{experiment}\n" + "\n".join(lines) + f"\nsee {place}.png, .md, .csv", flush=True)
 
 
@@ -199,10 +211,10 @@ def runRecords(jobs, all):
 				"steps": result.get("cost", {}).get("steps"), "unbalanced_ratio_max": result.get("quality", {}).get("unbalanced_ratio_max"), "failed": result.get("failed"), "command": result["command"]}
 
 
-# ---- calibration of the spheres: each model and experiment anew, since no set of parameters serves two experiments
+# ---- calibration of YADE's models: each model and experiment anew, since no set of parameters serves two experiments
 
 class Fit:
-	"""How a sphere model is calibrated for an experiment: where to start, which quantity is moved by which parameter, what follows from it."""
+	"""How a model is calibrated for an experiment: where to start, which quantity is moved by which parameter, what follows from it."""
 
 	def __init__(self, start, targets, governs, seeds, tied):
 		self.start, self.targets, self.governs, self.seeds, self.tied = start, targets, governs, seeds, tied
@@ -219,9 +231,21 @@ degrees = lambda tangent: math.degrees(math.atan(tangent))
 smoothPlanes = lambda q, experiment: {"jointStiffness": q["mortarYoung"] / (math.pi * radius[experiment])} # a bond's kn is E R, a plane's is stiffness times pi R^2
 
 
+def polyhedraFit(experiment, known):
+	"""Parameters of polyhedra.py; in shear the stiffness is that found in tension."""
+	seeds = (101, 102, 103)
+	if experiment == "tension":
+		return Fit({"kn": 400e9, "tension": 0.6e6}, {name: value for name, (value, source) in curves.expectations("tension").items()},
+			{"peak_tensile_stress": "tension", "joint_stiffness": "kn"}, seeds, lambda q: {**q, "cohesion": q["tension"], "friction": 38})
+	kn = known["polyhedra tension"]["parameters"]["kn"]
+	return Fit({"cohesion": 3e6, "tangent": 1.0}, {"intercept": 0.87, "slope": 1.01}, {"intercept": "cohesion", "slope": "tangent"}, seeds,
+		lambda q: {"kn": kn, "cohesion": q["cohesion"], "tension": q["cohesion"] / 2, "friction": degrees(q["tangent"])})
+
+
 def fits(model, experiment, known):
 	"""The Fit; `known` are the calibrations that are done already: shear takes its elastic parameters from tension, since no
 	laboratory stiffness is given."""
+	if model == "polyhedra": return polyhedraFit(experiment, known)
 	if experiment == "tension": # Tables 1 and 3: cohesion = tensile strength; bricks 22 times as stiff as the mortar layer with its joints
 		def tied(q):
 			q = {**q, "cohesion": q["tension"], "unitYoung": 22 * q["mortarYoung"], "poisson": 0.5, "unitStrength": 1000, "friction": 38, "residualFriction": 38, "ductility": 2}
@@ -252,9 +276,10 @@ def fits(model, experiment, known):
 
 def evaluate(jobs, model, experiment, parameters, seeds):
 	"""Means over packings; in shear of the line through the three peaks, and the residual stress at 0.5 N/mm2."""
-	settings = {"experiment": experiment, "model": model, **parameters}
+	script = "polyhedra" if model == "polyhedra" else "spheres"
+	settings = {"experiment": experiment, **({"model": model} if script == "spheres" else {}), **parameters}
 	cases = [{**settings, "sigma": sigma} for sigma in sigmas] if experiment == "shear" else [settings]
-	asked = [[Job("spheres", case, seed) for seed in seeds] for case in cases]
+	asked = [[Job(script, case, seed) for seed in seeds] for case in cases]
 	jobs.do([job for case in asked for job in case])
 	found = [[jobs.result(job) for job in case] for case in asked]
 	for result in (result for case in found for result in case):
@@ -268,9 +293,9 @@ def evaluate(jobs, model, experiment, parameters, seeds):
 	return {"intercept": my - slope * mx, "slope": slope, "middle": peaks[1], "residual": means[1]["residual_shear_stress"]}
 
 
-def sphereCode():
-	"""What a calibration depends on besides its Fit: YADE and the code of the spheres' runs, whatever its comments."""
-	parts = [house / "scripts" / "spheres.py", *(house / "py" / "yadeblocks" / f"{name}.py" for name in ("packing", "loading", "curves"))]
+def codeOf(model):
+	"""What a calibration depends on besides its Fit: YADE and the code of the runs, whatever its comments."""
+	parts = [house / "scripts" / ("polyhedra.py" if model == "polyhedra" else "spheres.py"), *(house / "py" / "yadeblocks" / f"{name}.py" for name in ("packing", "loading", "curves"))]
 	return study.fingerprint((), yadeVersion(), *map(study.meaning, parts))[:16]
 
 
@@ -281,7 +306,7 @@ def staleCalibrations(experiment):
 		entry = known.get(f"{model} {experiment}")
 		if not entry or p.model not in ("all", model): continue
 		fit = fits(model, experiment, known)
-		reasons = calibration.changes(entry, {"targets": fit.targets, "packings": list(fit.seeds), "code": sphereCode(), "parameters": fit.parameters(entry["moved"]) if "moved" in entry else None})
+		reasons = calibration.changes(entry, {"targets": fit.targets, "packings": list(fit.seeds), "code": codeOf(model), "parameters": fit.parameters(entry["moved"]) if "moved" in entry else None})
 		if reasons: yield f"Stale: {model} was calibrated with other {', '.join(reasons)}; mode=calibrate experiment={experiment} model={model} does it again."
 
 
@@ -289,14 +314,14 @@ def calibrateAll(jobs):
 	path = house / "scripts" / "calibrated.json"
 	known = json.loads(path.read_text())
 	for experiment in experiments:
-		for model in modelsOf[experiment] if p.model == "all" else (p.model,):
+		for model in [model for model in modelsOf[experiment] if p.model in ("all", model)]:
 			fit, before = fits(model, experiment, known), known.get(f"{model} {experiment}", {})
 			start = before.get("moved", fit.start) # to go on is shorter than to begin again
 			found = calibration.calibrate(lambda q: evaluate(jobs, model, experiment, fit.parameters(_short(q)), fit.seeds), start, fit.targets, fit.governs, tolerance=0.03, rounds=4)
 			runs = found.rounds * len(fit.seeds) * (len(sigmas) if experiment == "shear" else 1) + before.get("runs", 0)
 			known[f"{model} {experiment}"] = {
 				"parameters": fit.parameters(_short(found.parameters)), "moved": _short(found.parameters), "targets": fit.targets, "reached": {name: round(value, 4) for name, value in found.measured.items()},
-				"rounds": found.rounds + before.get("rounds", 0), "runs": runs, "packings": list(fit.seeds), "code": sphereCode()}
+				"rounds": found.rounds + before.get("rounds", 0), "runs": runs, "packings": list(fit.seeds), "code": codeOf(model)}
 			path.write_text(json.dumps(known, indent=1) + "\n")
 			print(f"{model} {experiment}: {runs} runs, reached", known[f"{model} {experiment}"]["reached"], "for", fit.targets, flush=True)
 

@@ -6,7 +6,7 @@
 Three states are measured: a couplet in tension whose first joints are broken (TT2 of tension.py, bonded joints only), a masonry
 prism in compression before its first crack (compression.py, half as wide) and the same prism crushed, with general contact. From
 each, the same window of steps is run again and again, with one feature more every time. Instructions are counted in callgrind and
-repeat to about 1e-4; times are the best of several runs.
+repeat to about 1e-4; times are medians of 15 turns, in each of which a feature is compared with the bare step.
 
 Switched off, a feature leaves only the question whether it is on. To show it, the instructions of the bare scene are sorted by source
 line: those in a feature's own files, or on lines elsewhere that speak of it, are its price while it is off: an upper bound.
@@ -30,7 +30,7 @@ p = scenario.parameters({'part': '', 'scene': 'tension', 'quick': True},
 folder = Path('out/price')
 house = Path(yadeblocks.__file__).resolve().parents[2] # __file__ is YADE itself
 window = 100 if p.quick else 400 # steps
-repetitions = 8 if p.quick else 24 # of every timed window
+repetitions = 15 if p.quick else 45 # of every timed window
 writeEvery, lookEvery, recordEvery = 1000, 100, 50 # steps between ParaView files, looks at the stability, gauge readings
 
 # ---- the scenes
@@ -165,7 +165,7 @@ class Row:
 
 
 rows = [
-	Row('general contact (collider + BlockContacts), nothing broken', lambda model: addGeneralContact()),
+	Row('general contact (collider + BlockContacts)', lambda model: addGeneralContact()),
 	Row('small strain instead of large displacement', lambda model: setattr(model, 'smallStrain', True)),
 	Row('dilation', lambda model: setJoints(dilationAngle=radians(4))),
 	Row('residual friction', lambda model: setJoints(frictionAngleResidual=radians(30))),
@@ -183,7 +183,9 @@ if p.scene == 'crushed': rows = [row for row in rows if 'general contact' not in
 
 features = { # where their code is
 	'general contact': Feature(r'(Free|Edge|Block)Contacts?\.', r'contacts\b|->contact\b|contactsVersion|released\(\)|Which::'),
+	'rigid blocks': Feature(r'Rigid(Bodies|Blocks?)\.', r'\b[rR]igid'),
 	'dilation': Feature(lines='[dD]ilation|uplift'),
+	'residual friction': Feature(lines='[rR]esidual'),
 	'small strain': Feature(lines='smallStrain|Strain::small'),
 	'dead loads': Feature(lines=r'\bload\b|loadWork'),
 	'adaptive damping': Feature(lines='adaptive|viscous'),
@@ -211,16 +213,15 @@ def counts():
 
 
 def times():
-	"""CPU time of a step [ns], the best of several; features take turns, because the machine's speed changes from second to second."""
-	best = {}
+	"""CPU times of a step [ns], one a turn; features take turns, because the machine's speed changes from second to second."""
+	found = {}
 	for _ in range(repetitions):
 		for name, switch in [('bare', None)] + [(row.name, row.switch) for row in rows]:
 			start(switch)
-			for _ in range(2):
-				begun = time.process_time()
-				O.run(window, True)
-				best[name] = min(best.get(name, np.inf), 1e9 * (time.process_time() - begun) / window)
-	(folder / (p.scene + '.times.json')).write_text(json.dumps(best))
+			begun = time.process_time()
+			O.run(window, True)
+			found.setdefault(name, []).append(1e9 * (time.process_time() - begun) / window)
+	(folder / (p.scene + '.times.json')).write_text(json.dumps(found))
 
 
 def threads():
@@ -235,7 +236,7 @@ def threads():
 			begun = time.perf_counter()
 			O.run(window, True)
 			clock.append(time.perf_counter() - begun)
-		found[count] = 1e9 * min(clock) / window
+		found[count] = 1e9 * float(np.median(clock)) / window
 	(folder / (p.scene + '.threads.json')).write_text(json.dumps(found))
 
 
@@ -250,17 +251,18 @@ def report():
 	source = sourceLines(house)
 	for scene in ('tension', 'compression', 'crushed'):
 		read = lambda kind: json.loads((folder / ('%s.%s.json' % (scene, kind))).read_text())
-		sizes, nanoseconds, profiles = read('sizes'), read('times'), readProfiles(folder / (scene + '.callgrind'))
+		sizes, turns, profiles = read('sizes'), read('times'), readProfiles(folder / (scene + '.callgrind'))
+		once = float(np.median(turns['bare']))
 		bare = profiles['bare']
 		off = bare.total / window
 		lines += ['', '## %s' % scene, '', ', '.join('%d %s' % (value, name) for name, value in sizes.items()) + '.', '',
-			'Bare: %s thousand instructions, %.0f µs a step; counted again: %+.4f %%.' % (kilo(off), nanoseconds['bare'] / 1e3, 100 * (profiles['bare again'].total / bare.total - 1)), '',
+			'Bare: %s thousand instructions, %.0f µs a step; counted again: %+.4f %%.' % (kilo(off), once / 1e3, 100 * (profiles['bare again'].total / bare.total - 1)), '',
 			'| feature | instructions a step, on (10³) | more than bare | | µs more |', '|---|---:|---:|---:|---:|']
 		for row in rows:
 			if row.name not in profiles: continue
-			more, slower = row.share * (profiles[row.name].total / window - off), row.share * (nanoseconds[row.name] - nanoseconds['bare'])
+			more, slower = row.share * (profiles[row.name].total / window - off), row.share * float(np.median(np.subtract(turns[row.name], turns['bare'])))
 			lines.append('| %s | %s | %+.1f | %+.1f %% | %+.1f |' % (row.name, kilo(off + more), more / 1e3, 100 * more / off, slower / 1e3))
-			table.append((scene, row.name, off, off + more, nanoseconds['bare'], nanoseconds['bare'] + slower))
+			table.append((scene, row.name, off, off + more, once, once + slower))
 		if (folder / (scene + '.threads.json')).exists():
 			clock = read('threads')
 			lines.append('| two threads instead of one (wall-clock) | | | %+.0f %% | %+.1f |' % (100 * (clock['2'] / clock['1'] - 1), (clock['2'] - clock['1']) / 1e3))

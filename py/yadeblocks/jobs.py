@@ -72,7 +72,7 @@ class Jobs:
 		seen = {}
 		for job in jobs:
 			kept = self.result(job)
-			if kept is None or (self.retry and "failed" in kept):
+			if kept is None or ("failed" in kept and (self.retry or kept.get("limit", math.inf) < self.limit or kept["failed"].startswith("exit code -"))): # killed
 				seen.setdefault(job.name, job)
 		return list(seen.values())
 
@@ -133,9 +133,10 @@ class Jobs:
 		if self.stopped:
 			return
 		self._unchanged(job)
-		record = {"job": {"script": job.script, "settings": job.settings, "seed": job.seed}, "command": " ".join(["scripts/run.sh", job.script, *words, f"seed={job.seed}"])}
+		record = {"parallel": self.parallel, "job": {"script": job.script, "settings": job.settings, "seed": job.seed}, "command": " ".join(["scripts/run.sh", job.script, *words, f"seed={job.seed}"])}
 		try:
 			record.update(self._read(job, key) if not reason else {"failed": f"{reason}: {_lastLine(log)}"})
+			if reason.startswith("not done"): record["limit"] = self.limit # more time may do
 		except (OSError, KeyError, ValueError) as error:
 			record["failed"] = f"left no result ({type(error).__name__}): {_lastLine(log)}"
 		record["wall_s"] = time.monotonic() - start
@@ -184,6 +185,11 @@ class Jobs:
 @lru_cache(maxsize=None)
 def yadeVersion():
 	return subprocess.run(["yade", "--version"], capture_output=True, text=True, stdin=subprocess.DEVNULL).stdout.split("\n")[0]
+
+
+def machine():
+	"""What CPU seconds were measured on."""
+	return f"{_processor()}, {os.cpu_count()} cores"
 
 
 @lru_cache(maxsize=None)

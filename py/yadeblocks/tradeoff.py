@@ -21,8 +21,8 @@ shortNames = {
 }
 
 
-#: Knobs that change the specimen, not only the way it is computed: their points are no settings to choose for a wanted error.
-specimenKnobs = ("size", "plane", "units", "radius", "one set")
+#: Knobs that change the specimen or its parameters, not only the way it is computed: their points are no settings to choose for a wanted error.
+specimenKnobs = ("size", "plane", "units", "radius", "one set", "low friction")
 
 
 class Error(NamedTuple):
@@ -57,6 +57,11 @@ class Row(NamedTuple):
 	failed: str = "" # reason, if any run failed
 	isReference: bool = False
 	rising: int = 0 # runs whose stress did not fall after its highest value: no peak
+
+	@property
+	def sound(self):
+		"""Whether every run gave a result, with a peak: a setting must work for every seed."""
+		return not self.failed and not self.rising
 
 	def worst(self, kind):
 		"""The largest rms over all quantities."""
@@ -102,62 +107,71 @@ def pareto(points):
 
 
 def cheapest(rows, limit, error):
-	"""The row of the lowest cost whose error(row) is within the limit, or None. Rows of which a run failed do not count: a setting
-	must work for every seed."""
-	fit = [row for row in rows if not row.failed and error(row) <= limit]
+	"""The row of the lowest cost whose error(row) is within the limit, or None. Rows of which a run failed do not count."""
+	fit = [row for row in rows if row.sound and error(row) <= limit]
 	return min(fit, key=lambda row: row.cpu) if fit else None
 
 
-def reading(case, rows, check, names, limits=(0.05, 0.02, 0.01)):
-	"""Up to ten lines that say what the plot shows. check: how far the reference itself moves when its rate is doubled, an Error or
-	None; names: the quantities, the peak first."""
+def reading(rows, names, limits=(0.05, 0.02, 0.01), most=10):
+	"""What the plot of one case shows, in at most so many lines; what failed is always among them. names: the quantities, the peak first."""
 	peak, lines = names[0], []
-	blocks = [row for row in rows if row.model == "blocks" and not row.isReference and row.knob not in specimenKnobs]
-	spheres = [row for row in rows if row.model != "blocks"]
-	if check:
-		lines.append(f"Errors are rms over {check.seeds} seeds against each seed's own slow run; that one moves by {_signed(check.mean)} ± {_percent(check.scatter)} when loaded twice as fast.")
-	unknown = check.rms if check else 0.0
-	compared = any(not math.isnan(row.rms("reference", peak)) for row in blocks)
-	if compared and unknown > min(limits):
-		lines.append(f"Errors below {_percent(unknown)} cannot be judged: the reference is not known better; mode=full has a slower one.")
-	for limit in limits if compared else ():
-		if unknown > limit: continue
-		row = cheapest(blocks, limit, lambda row: row.rms("reference", peak))
-		if row:
-			every = cheapest(blocks, limit, lambda row: row.worst("reference"))
-			lines.append(f"{_percent(limit)} in the peak: {row.label} ({row.cpu:.2g} CPU s, {_percent(row.rms('reference', peak))})" + (
-			        "; in every quantity: " + (f"{every.label} ({every.cpu:.2g} CPU s)" if every else "none of the settings tried") + "."))
-		else:
-			best = min((row for row in blocks if not row.failed and not math.isnan(row.rms("reference", peak))), key=lambda row: row.rms("reference", peak), default=None)
-			lines.append(f"{_percent(limit)} in the peak: none of the settings tried" + (f"; the best is {best.label} ({best.cpu:.2g} CPU s, {_percent(best.rms('reference', peak))})." if best else "."))
-	knob = _worstKnob(blocks, peak)
-	if knob:
-		lines.append(knob)
-	near = [row for row in blocks if not row.failed and row.laboratory.get(peak)]
+	blocks = [row for row in rows if row.model == "blocks" and not row.isReference and row.knob not in (*specimenKnobs, "half as slow")]
+	others = [row for row in rows if row.model != "blocks" and not row.isReference]
+	check = next((row for row in rows if row.model == "blocks" and row.knob == "half as slow"), None)
+	known = check.reference if check else {}
+	if known.get(peak):
+		moves = ", ".join(f"{shortNames[name]} {_signed(known[name].mean)} ± {_percent(known[name].scatter)}" for name in names if known.get(name))
+		lines.append(f"Errors are rms over {known[peak].seeds} seeds against each seed's own slow run; that one moves when loaded twice as fast: {moves}.")
+	said = [text for text in (_bestFor(blocks, name, known.get(name), limits) for name in names) if text]
+	lines += said[:1]
 	converged = [row for row in rows if row.model == "blocks" and row.isReference and row.laboratory.get(peak)]
-	if near or converged:
-		row = (converged or near)[0]
-		lines.append(f"Laboratory: {'the slow run' if converged else row.label} gives " + _laboratory(row, names) + ".")
+	near = converged or [row for row in blocks if row.sound and row.laboratory.get(peak)]
+	if near:
+		lines.append(f"Laboratory: {'the slow run' if converged else near[0].label} gives " + _laboratory(near[0], names) + ".")
 	best = {}
-	for row in spheres:
-		if row.knob not in ("one set", "radius") and not row.failed and row.laboratory.get(peak):
+	for row in others:
+		if row.knob not in specimenKnobs and row.sound and row.laboratory.get(peak):
 			best[row.model] = min(best.get(row.model, row), row, key=lambda row: row.rms("laboratory", peak))
 	if best:
-		said = [f"{row.model} {_laboratory(row, names)} ({row.cpu:.2g} CPU s)" for row in sorted(best.values(), key=lambda row: row.rms("laboratory", peak))]
-		lines.append("Spheres against the laboratory, each model calibrated for this experiment: " + "; ".join(said) + ".")
-	foreign = [f"{row.model} {_laboratory(row, names)}" for row in spheres if row.knob == "one set" and row.laboratory.get(peak)]
-	if foreign:
-		lines.append("Spheres with the parameters found in tension: " + "; ".join(foreign) + ".")
-	rates = [f"{row.model} {row.label} {_percent(row.rms('reference', peak))} ({row.cpu:.2g} s)" for row in spheres if row.knob == "steps" and not math.isnan(row.rms("reference", peak))]
+		told = [f"{row.model} {_laboratory(row, names)} ({row.cpu:.2g} CPU s)" for row in sorted(best.values(), key=lambda row: row.rms("laboratory", peak))]
+		lines.append("YADE's own models against the laboratory, each calibrated for this experiment: " + "; ".join(told) + ".")
+	for knob, words in (("one set", "With the parameters of tension"), ("low friction", "With a friction of 5°")):
+		told = [f"{row.model} {_laboratory(row, names)}" for row in rows if row.knob == knob and row.laboratory.get(peak)]
+		if told: lines.append(f"{words}: " + "; ".join(told) + ".")
+	knob = _worstKnob(blocks, peak)
+	lines += [knob] * bool(knob) + said[1:]
+	rates = [row for row in others if row.knob == "steps" and not math.isnan(row.rms("reference", peak))]
 	if rates:
-		lines.append("Spheres against their own slow runs: " + "; ".join(rates) + ".")
-	rising = [f"{row.model} {row.label} ({row.rising} of {row.seeds})" for row in rows if row.rising]
-	if rising:
-		lines.append("The stress had not fallen when the run ended, so its highest value is no peak: " + "; ".join(rising) + ".")
-	for words, rows in (("Not all seeds were run (yet)", [row for row in rows if row.failed.endswith("not run")]), ("Failed, see the table", [row for row in rows if row.failed and not row.failed.endswith("not run")])):
-		if rows:
-			lines.append(f"{words}: " + "; ".join(f"{row.model} {row.label}" for row in rows) + ".")
-	return lines[:10]
+		lines.append("YADE's own models against their own slow runs: " + "; ".join(f"{row.model} {row.label} {_percent(row.rms('reference', peak))} ({row.cpu:.2g} s)" for row in rates) + ".")
+	warnings = []
+	for words, told in (
+	        ("Not all seeds were run (yet)", [row for row in rows if row.failed.endswith("not run")]),
+	        ("Failed, see the table", [row for row in rows if row.failed and not row.failed.endswith("not run")]),
+	        ("Without a peak in some runs, whose stress had not fallen when they ended", [row for row in rows if row.rising])
+	):
+		if told:
+			warnings.append(f"{words}: " + "; ".join(f"{row.model} {row.label}" for row in told) + ".")
+	return lines[:max(0, most - len(warnings))] + warnings
+
+
+def _bestFor(blocks, name, known, limits):
+	"""The cheapest settings for the limits, in one line; None where nothing is compared. The reference's own uncertainty counts as error:
+	known is how far it moves when loaded twice as fast."""
+	unknown = known.rms if known else 0.0
+	error = lambda row: math.hypot(row.rms("reference", name), unknown)
+	compared = [row for row in blocks if row.sound and not math.isnan(row.rms("reference", name))]
+	if not compared:
+		return None
+	told = []
+	for limit in limits:
+		row = cheapest(compared, limit, error)
+		if unknown > limit: told.append(f"{_percent(limit)}: cannot be judged, the reference is known to {_percent(unknown)} only")
+		elif row: told.append(f"{_percent(limit)}: {row.label} ({row.cpu:.2g} CPU s, {_percent(row.rms('reference', name))})")
+		else:
+			row = min(compared, key=error)
+			told.append(f"{_percent(limit)}: none of the settings tried, the best is {row.label} ({row.cpu:.2g} CPU s, {_percent(row.rms('reference', name))})")
+		if unknown > limit: break
+	return f"For the {shortNames[name]} within " + "; ".join(told) + "."
 
 
 def _worstKnob(rows, peak):
@@ -206,8 +220,12 @@ def asRecords(rows):
 
 def asMarkdown(rows, names):
 	"""The table: for each quantity the error against the laboratory and against the reference, mean ± scatter; * is on the Pareto front of
-	its model family (peak against reference)."""
-	front = {id(row) for family in (True, False) for row in _front([r for r in rows if (r.model == "blocks") == family and not r.isReference and r.knob not in specimenKnobs], names[0])}
+	its case and model family (peak against reference)."""
+	front = {
+	        id(row)
+	        for case in {row.case for row in rows} for family in (True, False)
+	        for row in _front([r for r in rows if r.case == case and (r.model == "blocks") == family and not r.isReference and r.knob not in specimenKnobs], names[0])
+	}
 	head = ["case", "model", "setting", "seeds", "CPU s"] + [f"{shortNames[name]}, {kind}" for name in names for kind in ("laboratory", "reference")]
 	lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
 	for row in rows:
@@ -219,4 +237,5 @@ def asMarkdown(rows, names):
 
 
 def _front(rows, peak):
+	rows = [row for row in rows if row.sound]
 	return [rows[i] for i in pareto([(row.cpu, row.rms("reference", peak)) for row in rows])]
