@@ -51,7 +51,7 @@ def test_resultFile(small):
 	assert set(cost) >= {'cpu_s', 'wall_s', 'steps', 'us_per_step', 'blocks', 'nodes', 'zones', 'contacts', 'peak_rss_mb', 'threads'}
 	assert all(isinstance(cost[name], (int, float)) and cost[name] > 0 for name in cost if cost[name] is not None)
 	assert cost['steps'] <= 4000 and cost['threads'] == 1 and cost['blocks'] < cost['nodes'] < 2 * cost['contacts']
-	assert set(result['quality']) == {'unbalanced_ratio_max', 'half_rate_change', 'energy_error'} and result['quality']['unbalanced_ratio_max'] > 0
+	assert set(result['quality']) == {'unbalanced_ratio_max', 'half_rate_change', 'energy_error', 'without_peak'} and result['quality']['without_peak'] == [] and result['quality']['unbalanced_ratio_max'] > 0
 
 
 def test_curve(small):
