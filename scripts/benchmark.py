@@ -139,7 +139,7 @@ def yadePoints(mode, case, model, known):
 	calibrated = known[f"{model} {experiment}"]["parameters"]
 	factor = wanted["slow"] and wanted["slow"].get(f"{model} {experiment}", 4)
 	slowest = {**base, **calibrated, "steps": factor * sphereSteps[experiment]} if factor and case in middle else None
-	for part in [part for part in wanted["steps"] if not factor or part < factor] if case in middle else (1,):
+	for part in wanted["steps"] if case in middle else (1,):
 		way = {"steps": int(part * sphereSteps[experiment])}
 		yield Point(case, model, "steps", inWords(way), script, {**base, **calibrated, **way}, slowest)
 	if slowest: yield Point(case, model, "reference", inWords({"steps": slowest["steps"]}), script, slowest, slowest, True)

@@ -2,13 +2,14 @@
 """Tension and shear of the couplet with YADE's own polyhedra and mortar law, for comparison.
 
 Law2_ScGeom_MortarPhys_Lourenco on rigid polyhedra (Ig2_Polyhedra_Polyhedra_ScGeom): the cells of tension.py and shear.py with
-units=voronoi, a bond for each joint, of its area. YADE takes the line between centroids for the normal of such a contact and knows no
-contact of these bonds once they are broken, so there is no residual stress here, and no law for a prism that is crushed.
+units=voronoi, a bond of the joint's area for every pair that shares edges. YADE takes the line between centroids for the normal of such a
+contact, and a bond that breaks leaves no contact behind: there is no residual stress here, and nothing for a prism that is crushed.
 
 	scripts/run.sh polyhedra experiment=tension|shear [key=value ...]
 
-Cells are rigid, so that bonds are softer than the joints of the paper: young (mortar; bricks times unitStiffness) was found for the stiffness across
-the layer, tension and cohesion for the peaks.
+kn [Pa/m], ks (0: half of it), tension and cohesion [Pa] and friction [degrees] are those of the paper's joints unless given; scripts/calibrated.json
+holds what scripts/benchmark.sh found (mode=calibrate). Bonds within bricks are unitStiffness times as stiff and do not break. Masses are
+scaled for the stable step.
 """
 from math import radians
 
