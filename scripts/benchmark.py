@@ -121,7 +121,7 @@ def blockPoints(mode, case, lines):
 	reference = lambda specimen: {**base, **specimen, "steps": slow[mode][experiment] // (2 if specimen else 1)}
 	specimens = []
 	for knob, specimen, way in lines:
-		compared = (mode == "full" and case in middle and knob != "one set") if specimen else (mode == "full" or case in middle)
+		compared = (mode == "full" and case in middle and knob != "one set" and specimen != {"units": "plain"}) if specimen else (mode == "full" or case in middle) # plain bricks never crush
 		label = inWords({**way, **specimen}) if knob != "one set" else inWords(way) + ", the joints of tension"
 		yield Point(case, "blocks", knob, label, experiment, {**base, **specimen, **way}, reference(specimen) if compared else None)
 		if compared and specimen not in specimens: specimens.append(specimen)
@@ -143,8 +143,8 @@ def yadePoints(mode, case, model, known):
 		way = {"steps": int(part * sphereSteps[experiment])}
 		yield Point(case, model, "steps", inWords(way), script, {**base, **calibrated, **way}, slowest)
 	if slowest: yield Point(case, model, "reference", inWords({"steps": slowest["steps"]}), script, slowest, slowest, True)
-	if script == "polyhedra": return # cells of the blocks' size
-	for factor in wanted["radius"] if case in middle else ():
+	if script == "polyhedra": return # its cells are those of the blocks
+	for factor in wanted["radius"] if case in middle and (model, experiment) not in spheres["quick"]["without"] else ():
 		finer = {"steps": round(sphereSteps[experiment] / factor), "radius": round(factor * radius[experiment], 7)} # waves need as many steps more
 		yield Point(case, model, "radius", inWords(finer), script, {**base, **smaller(model, calibrated, factor), **finer}, None)
 	if case == "shear 0.5" and model in ("jcfpm", "cohfrict", "cpm"): # whether any friction would give the residual
