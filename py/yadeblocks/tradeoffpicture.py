@@ -9,7 +9,7 @@ from .tradeoff import pareto, shortNames, specimenKnobs
 # Okabe and Ito's colours, as in pictures.py; a marker for each, for grey prints
 _looks = {
         "blocks": ("#0072B2", "o"), "jcfpm": ("#D55E00", "s"), "jcfpmSmooth": ("#E69F00", "D"), "cohfrict": ("#009E73", "^"),
-        "cpm": ("#CC79A7", "v"), "lourenco": ("#000000", "P")
+        "cpm": ("#CC79A7", "v"), "lourenco": ("#000000", "P"), "polyhedra": ("#56B4E9", "X")
 }
 _floor = 1e-4 # errors below are drawn here
 
@@ -34,7 +34,7 @@ def drawTradeoff(path, cases, names, lines, title=""):
 			for j, (kind, against) in enumerate((("reference", "its own slow run"), ("laboratory", "the laboratory"))):
 				axes = figure.add_subplot(grid[i, j])
 				axes.set_ylabel("rms error [%]")
-				_panel(axes, [row for row in rows if kind == "laboratory" or not (row.isReference or row.knob in specimenKnobs[:3])], kind, names)
+				_panel(axes, [row for row in rows if (row.knob not in ("one set", "low friction") if kind == "laboratory" else not row.isReference and row.knob not in specimenKnobs)], kind, names)
 				axes.set_title(f"{case}: {shortNames[names[0]]} against {against}", loc="left", fontsize=8)
 				if i == len(cases) - 1: axes.set_xlabel("CPU time of a run [s]")
 		models = [model for model in _looks if any(row.model == model for rows in cases.values() for row in rows)]
@@ -55,7 +55,7 @@ def _panel(axes, rows, kind, names):
 	for family in ([m for m in shown if m == "blocks"], [m for m in shown if m != "blocks"]):
 		mine = [row for model in family for row in shown[model]]
 		points = [(row.cpu, max(100 * row.rms(kind, peak), 100 * _floor)) for row in mine]
-		front = pareto(points)
+		front = pareto([point if row.sound else (math.nan, math.nan) for row, point in zip(mine, points)])
 		colour = _looks[family[0]][0] if family == ["blocks"] else "#888888"
 		axes.plot([points[k][0] for k in front], [points[k][1] for k in front], color=colour, linewidth=0.8, zorder=2)
 		for k, (row, (x, y)) in enumerate(zip(mine, points)):
