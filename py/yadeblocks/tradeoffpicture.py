@@ -9,7 +9,7 @@ from .tradeoff import pareto, shortNames, specimenKnobs
 # Okabe and Ito's colours, as in pictures.py; a marker for each, for grey prints
 _looks = {
         "blocks": ("#0072B2", "o"), "jcfpm": ("#D55E00", "s"), "jcfpmSmooth": ("#E69F00", "D"), "cohfrict": ("#009E73", "^"),
-        "cpm": ("#CC79A7", "v"), "lourenco": ("#000000", "P")
+        "cpm": ("#CC79A7", "v"), "lourenco": ("#000000", "P"), "polyhedra": ("#56B4E9", "X")
 }
 _floor = 1e-4 # errors below are drawn here
 
@@ -34,7 +34,7 @@ def drawTradeoff(path, cases, names, lines, title=""):
 			for j, (kind, against) in enumerate((("reference", "its own slow run"), ("laboratory", "the laboratory"))):
 				axes = figure.add_subplot(grid[i, j])
 				axes.set_ylabel("rms error [%]")
-				_panel(axes, [row for row in rows if kind == "laboratory" or not (row.isReference or row.knob in specimenKnobs[:3])], kind, names)
+				_panel(axes, [row for row in rows if (row.knob not in ("one set", "low friction") if kind == "laboratory" else not row.isReference and row.knob not in specimenKnobs)], kind, names)
 				axes.set_title(f"{case}: {shortNames[names[0]]} against {against}", loc="left", fontsize=8)
 				if i == len(cases) - 1: axes.set_xlabel("CPU time of a run [s]")
 		models = [model for model in _looks if any(row.model == model for rows in cases.values() for row in rows)]
@@ -50,18 +50,18 @@ def drawTradeoff(path, cases, names, lines, title=""):
 def _panel(axes, rows, kind, names):
 	peak = names[0]
 	from matplotlib.ticker import FuncFormatter
+	labels = []
 	shown = {row.model: [r for r in rows if r.model == row.model and not math.isnan(r.rms(kind, peak))] for row in rows}
 	for family in ([m for m in shown if m == "blocks"], [m for m in shown if m != "blocks"]):
 		mine = [row for model in family for row in shown[model]]
 		points = [(row.cpu, max(100 * row.rms(kind, peak), 100 * _floor)) for row in mine]
-		front = pareto(points)
+		front = pareto([point if row.sound else (math.nan, math.nan) for row, point in zip(mine, points)])
 		colour = _looks[family[0]][0] if family == ["blocks"] else "#888888"
 		axes.plot([points[k][0] for k in front], [points[k][1] for k in front], color=colour, linewidth=0.8, zorder=2)
 		for k, (row, (x, y)) in enumerate(zip(mine, points)):
 			tone, marker = _looks[row.model]
 			axes.plot(x, y, marker, color=tone, markersize=5, markerfacecolor=tone if k in front else "white", markeredgewidth=0.9, zorder=3, linestyle="none")
-		for k in front:
-			axes.annotate(mine[k].label, points[k], xytext=(4, 4), textcoords="offset points", fontsize=5.5, color=colour)
+		labels += [(mine[k].label, points[k], colour) for k in front]
 	if not any(shown.values()):
 		axes.set_axis_off()
 		axes.text(0, 0.8, "no slow runs in this mode", transform=axes.transAxes, fontsize=7, color="#888888")
@@ -72,3 +72,17 @@ def _panel(axes, rows, kind, names):
 		axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
 		axis.set_minor_formatter(FuncFormatter(lambda value, _: f"{value:g}" if f"{value:e}"[0] in "25" else ""))
 	axes.tick_params(which="both", labelsize=7)
+	_write(axes, labels)
+
+
+def _write(axes, labels):
+	"""Writes (text, point, colour) beside the points, each at the first of some places where it covers no other text."""
+	renderer, taken = axes.figure.canvas.get_renderer(), []
+	for text, point, colour in labels:
+		for place in [(4, 3 + 6.5 * row) for row in (0, -1.6, 1, -2.6, 2, -3.6, 3, -4.6, 4)]:
+			label = axes.annotate(text, point, xytext=place, textcoords="offset points", fontsize=5.5, color=colour)
+			box = label.get_window_extent(renderer)
+			if not any(box.overlaps(other) for other in taken): break
+			label.remove()
+		else: continue # a front too crowded to be read: the table has it
+		taken.append(box)
