@@ -84,9 +84,9 @@ blocks = { # a setting that a scenario refuses is in the table as failed
 			+ way("safety", 20000, 0.4, 0.85) + specimen("size", 30000, layers(15e-3, 4.5e-3), layers(7e-3, 3e-3)) + specimen("plane", 30000, "stress") + specimen("units", 30000, "plain")}}
 spheres = { # multiples of the steps and radius they were calibrated with (slow: of the references' steps where they are not 4; None: no references); packings: at most so many
 	"quick": {"steps": (1,), "slow": None, "radius": (), "stresses": ("0.5",), "packings": 4, "without": [("lourenco", "shear"), ("polyhedra", "shear")]}, # they take four times as long as the others
-	"full": {"steps": (0.25, 0.5, 1), "slow": {"lourenco shear": None, "polyhedra shear": 2}, "radius": (0.7,), "stresses": ("0.1", "0.5", "1.0"), "packings": 1000, "without": []}}
+	"full": {"steps": (0.25, 0.5, 1), "slow": {"lourenco shear": None, "polyhedra shear": 2, "cohfrict shear": 2}, "radius": (0.7,), "stresses": ("0.1", "0.5", "1.0"), "packings": 4, "without": []}}
 radius = {"tension": 1.5e-3, "shear": 2e-3, "compression": 2.5e-3} # of the spheres in the mortar [m], as in spheres.py
-sphereSteps = {"tension": 20000, "shear": 8000, "compression": 10000} # as in spheres.py
+sphereSteps = {"tension": 20000, "shear": 8000, "compression": 10000, "cohfrict shear": 32000} # as in spheres.py; CohFrict in 8000 is twice as strong as when loaded slowly
 
 
 class Point(NamedTuple):
@@ -138,22 +138,27 @@ def yadePoints(mode, case, model, known):
 	base = {"experiment": experiment, **({"model": model} if script == "spheres" else {}), **stressOf(case)}
 	calibrated = known[f"{model} {experiment}"]["parameters"]
 	factor = wanted["slow"] and wanted["slow"].get(f"{model} {experiment}", 4)
-	slowest = {**base, **calibrated, "steps": factor * sphereSteps[experiment]} if factor and case in middle else None
+	slowest = {**base, **calibrated, "steps": factor * stepsOf(model, experiment)} if factor and case in middle else None
 	for part in wanted["steps"] if case in middle else (1,):
-		way = {"steps": int(part * sphereSteps[experiment])}
+		way = {"steps": int(part * stepsOf(model, experiment))}
 		yield Point(case, model, "steps", inWords(way), script, {**base, **calibrated, **way}, slowest)
 	if slowest: yield Point(case, model, "reference", inWords({"steps": slowest["steps"]}), script, slowest, slowest, True)
 	if script == "polyhedra": return # its cells are those of the blocks
 	for factor in wanted["radius"] if case in middle and (model, experiment) not in spheres["quick"]["without"] else ():
-		finer = {"steps": round(sphereSteps[experiment] / factor), "radius": round(factor * radius[experiment], 7)} # waves need as many steps more
+		finer = {"steps": round(stepsOf(model, experiment) / factor), "radius": round(factor * radius[experiment], 7)} # waves need as many steps more
 		yield Point(case, model, "radius", inWords(finer), script, {**base, **smaller(model, calibrated, factor), **finer}, None)
-	if case == "shear 0.5" and model in ("jcfpm", "cohfrict", "cpm"): # whether any friction would give the residual
-		way = {"steps": sphereSteps[experiment], "friction": 5.0, "residualFriction": 5.0}
+	if case == "shear 0.5" and model == "cpm": # whether any friction would give the residual
+		way = {"steps": stepsOf(model, experiment), "friction": 5.0, "residualFriction": 5.0}
 		yield Point(case, model, "low friction", "friction 5 degrees", script, {**base, **calibrated, **way}, None)
 	if case in ("shear 0.5", "compression") and (mode == "full" or model == "jcfpm") and f"{model} tension" in known: # what one set of parameters for all three gives
 		foreign = smaller(model, known[f"{model} tension"]["parameters"], radius[experiment] / radius["tension"])
 		foreign = {**foreign, "unitStrength": 10.7 if experiment == "compression" else 1000} # else the prism's bricks would never break
-		yield Point(case, model, "one set", "the parameters found in tension", script, {**base, **foreign, "steps": sphereSteps[experiment]}, None)
+		yield Point(case, model, "one set", "the parameters found in tension", script, {**base, **foreign, "steps": stepsOf(model, experiment)}, None)
+
+
+def stepsOf(model, experiment):
+	"""Steps that one of YADE's models is calibrated with."""
+	return sphereSteps.get(f"{model} {experiment}", sphereSteps[experiment])
 
 
 def smaller(model, parameters, factor):
@@ -259,10 +264,11 @@ def fits(model, experiment, known):
 			if model == "jcfpmSmooth": # a plane has one friction only: that of the residual; the layers in between are stronger than the planes
 				return {**elastic, **smoothPlanes(elastic, experiment), "jointCohesion": q["cohesion"], "jointTension": q["cohesion"] / 2, "cohesion": 3 * q["cohesion"],
 					"tension": 1.5 * q["cohesion"], "jointFriction": degrees(q["tangent"]), "friction": 45, "residualFriction": 36}
-			return {**elastic, "friction": degrees(q["tangent"]), "residualFriction": 36}
-		peaks = {"intercept": 0.87, "slope": 1.01} # of the line through the three peaks
-		start, targets, governs = {"cohesion": 3e6, "tangent": 1.0}, peaks, {"intercept": "cohesion", "slope": "tangent"}
-		if model in ("jcfpm", "cpm"): # bonds break in tension whatever their friction: 12 runs each for both targets ended no nearer to the slope; the peak in the middle is what can be met
+			return {**elastic, "friction": degrees(q["tangent"]), "residualFriction": degrees(q["tangent"]) if model in ("jcfpm", "cohfrict") else 36}
+		start, targets, governs = {"cohesion": 3e6, "tangent": 1.0}, {"intercept": 0.87, "slope": 1.01}, {"intercept": "cohesion", "slope": "tangent"} # of the line through the three peaks
+		if model in ("jcfpm", "cohfrict"): # friction moves the residual, hardly the slope of the peaks: bonds break in tension
+			start, targets, governs = {"cohesion": 5e6, "tangent": 0.1}, {"middle": 1.375, "residual": 0.365}, {"middle": "cohesion", "residual": "tangent"}
+		if model == "cpm": # neither of both: with a friction of 5 degrees its residual is as high as before
 			start, targets, governs = {"cohesion": 4.5e6, "tangent": 1.0}, {"middle": 1.375}, {"middle": "cohesion"}
 		if model == "jcfpmSmooth": # friction is needed for the residual, so the planes' cohesion has to make up for the slope: 0.95 is the best line of slope 0.73 + what bulk bonds add
 			start, targets, governs = {"cohesion": 1.5e6, "tangent": 0.73}, {"intercept": 0.95, "residual": 0.365}, {"intercept": "cohesion", "residual": "tangent"}
@@ -277,7 +283,7 @@ def fits(model, experiment, known):
 def evaluate(jobs, model, experiment, parameters, seeds):
 	"""Means over packings; in shear of the line through the three peaks, and the residual stress at 0.5 N/mm2."""
 	script = "polyhedra" if model == "polyhedra" else "spheres"
-	settings = {"experiment": experiment, **({"model": model} if script == "spheres" else {}), **parameters}
+	settings = {"experiment": experiment, **({"model": model} if script == "spheres" else {}), **parameters, "steps": stepsOf(model, experiment)}
 	cases = [{**settings, "sigma": sigma} for sigma in sigmas] if experiment == "shear" else [settings]
 	asked = [[Job(script, case, seed) for seed in seeds] for case in cases]
 	jobs.do([job for case in asked for job in case])
