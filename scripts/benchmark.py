@@ -198,12 +198,12 @@ def report(jobs, experiment, all):
 	most = lambda case: 10 if case in middle and len(cases) == 1 else 8 if case in middle else 3
 	texts = {case: tradeoff.reading(mine, names, most=most(case)) for case, mine in cases.items()}
 	lines = [f"{case}: {line}" if len(cases) > 1 else line for case in sorted(cases, key=lambda case: case not in middle) for line in texts[case]] + list(staleCalibrations(experiment))
-	measured = f"CPU seconds of {machine()}, {p.jobs} runs at a time."
+	lines.append(f"CPU seconds of {machine()}, {p.jobs} runs at a time, the building of the specimen included.")
 	place = jobs.folder / f"{experiment}-{p.mode}"
 	pandas.DataFrame(tradeoff.asRecords(rows)).to_csv(f"{place}.csv", index=False, float_format="%.6g")
 	pandas.DataFrame(runRecords(jobs, all)).to_csv(f"{place}-runs.csv", index=False, float_format="%.6g")
-	Path(f"{place}.md").write_text(f"# {experiment}, {p.mode} mode\n\n{measured}\n\n" + "\n".join("- " + line for line in lines) + "\n\n" + tradeoff.asMarkdown(rows, names) + "\n")
-	tradeoffpicture.drawTradeoff(f"{place}.png", cases, names, lines, title=f"{experiment}: error over CPU time, {max(len(point.seeds) for point in all)} seeds a point, {min(p.seeds, spheres[p.mode]['packings'])} packings of spheres; {measured}")
+	Path(f"{place}.md").write_text(f"# {experiment}, {p.mode} mode\n\n" + "\n".join("- " + line for line in lines) + "\n\n" + tradeoff.asMarkdown(rows, names) + "\n")
+	tradeoffpicture.drawTradeoff(f"{place}.png", cases, names, lines, title=f"{experiment}: error over CPU time, {max(len(point.seeds) for point in all)} seeds a point, {min(p.seeds, spheres[p.mode]['packings'])} packings of YADE's models")
 	print(f"\n{experiment}\n" + "\n".join(lines) + f"\nsee {place}.png, .md, .csv", flush=True)
 
 
