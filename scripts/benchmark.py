@@ -341,6 +341,8 @@ plugin = os.environ.get("YADEBLOCKS_PLUGIN", house / "build" / "libyadeblocks.so
 jobs = Jobs(house, house / p.out, plugin, pluginFree=("spheres",), limit=p.limit, parallel=p.jobs, retry=p.retry)
 everything = {} if p.mode == "calibrate" else {
 	experiment: [point for point in points(p.mode, experiment) if p.model in ("all", point.model)] for experiment in experiments}
+if p.mode == "calibrate" and not any(p.model in ("all", *modelsOf[experiment]) for experiment in experiments) or p.mode != "calibrate" and not any(everything.values()):
+	sys.exit(f"benchmark: model={p.model} has nothing to {'calibrate' if p.mode == 'calibrate' else 'run'} with experiment={p.experiment}")
 stopped = False
 try:
 	if p.mode == "calibrate":

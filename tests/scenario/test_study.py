@@ -396,6 +396,12 @@ def study5(house):
 	return benchmark
 
 
+@pytest.mark.parametrize("words, said", [(["mode=calibrate", "model=blocks"], "nothing to calibrate"), (["experiment=compression", "model=lourenco"], "nothing to run"), (["model=wood"], "benchmark.model")])
+def test_benchmarkOfNothing(study5, words, said):
+	run = subprocess.run([sys.executable, study5.file("scripts/benchmark.py"), *words], capture_output=True, text=True)
+	assert run.returncode and said in run.stderr
+
+
 def test_staleCalibrationIsTold(study5):
 	study5("calibrate")
 	known = json.loads(study5.file("scripts/calibrated.json").read_text())["jcfpm tension"]
