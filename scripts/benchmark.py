@@ -86,7 +86,7 @@ spheres = { # multiples of the steps and radius they were calibrated with (slow:
 	"quick": {"steps": (1,), "slow": None, "radius": (), "stresses": ("0.5",), "packings": 4, "without": [("lourenco", "shear"), ("polyhedra", "shear")]}, # they take four times as long as the others
 	"full": {"steps": (0.25, 0.5, 1), "slow": {"lourenco shear": None, "polyhedra shear": 2, "cohfrict shear": 2}, "radius": (0.7,), "stresses": ("0.1", "0.5", "1.0"), "packings": 4, "without": []}}
 radius = {"tension": 1.5e-3, "shear": 2e-3, "compression": 2.5e-3} # of the spheres in the mortar [m], as in spheres.py
-sphereSteps = {"tension": 20000, "shear": 8000, "compression": 10000, "cohfrict shear": 32000} # as in spheres.py; CohFrict in 8000 is twice as strong as when loaded slowly
+sphereSteps = {"tension": 20000, "shear": 8000, "compression": 10000, "cohfrict shear": 32000} # as in spheres.py, but CohFrict: in 8000 it is twice as strong as when loaded slowly
 
 
 class Point(NamedTuple):
@@ -213,7 +213,7 @@ def runRecords(jobs, all):
 		for seed in point.seeds:
 			result = jobs.result(Job(point.script, point.settings, seed))
 			if result: yield {"case": point.case, "model": point.model, "setting": point.label, "seed": seed, **result.get("measures", {}), "cpu_s": result.get("cost", {}).get("cpu_s"),
-				"steps": result.get("cost", {}).get("steps"), "unbalanced_ratio_max": result.get("quality", {}).get("unbalanced_ratio_max"), "failed": result.get("failed"), "command": result["command"]}
+				"steps": result.get("cost", {}).get("steps"), "runs_at_a_time": result.get("parallel"), "unbalanced_ratio_max": result.get("quality", {}).get("unbalanced_ratio_max"), "failed": result.get("failed"), "command": result["command"]}
 
 
 # ---- calibration of YADE's models: each model and experiment anew, since no set of parameters serves two experiments

@@ -81,7 +81,6 @@ class Specimen:
 		beds = np.array(across)
 		self.below, self.above = np.unique(beds[self.unit[beds[:, 0]], 0]).tolist(), np.unique(beds[self.unit[beds[:, 1]], 1]).tolist() # bricks' cells along the bed planes
 
-
 	def bond(self, geometry, dt):
 		"""A bond for every pair, free of force as it is. YADE finds a pair only where the polyhedra, blown up, overlap."""
 		self.lost, along, around = 0, np.zeros(len(O.bodies)), np.zeros(len(O.bodies))

@@ -121,7 +121,9 @@ class Look:
 	def balance(self):
 		entries = [value for _, value in O.energy.items()]
 		if not entries: return
-		if not np.isfinite(entries).all(): entries = [math.inf] # max() would pass over what is no number
+		if not np.isfinite(entries).all(): # max() passes over what is no number
+			self.first, self.turnover, self.imbalance = 0, max(self.turnover, 1), math.inf
+			return
 		if self.first is None: self.first = sum(entries)
 		self.turnover = max(self.turnover, sum(max(value, 0) for value in entries))
 		self.imbalance = max(self.imbalance, abs(sum(entries) - self.first))
