@@ -1,6 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
-#include <blocks/kernel/Energy.hpp>
+#include <blocks/kernel/analysis/Energy.hpp>
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/nvp.hpp>
 #include <boost/serialization/string.hpp>
@@ -33,7 +33,10 @@ namespace serialization {
 		KEEP(cohesionResidual), KEEP(tanPhiResidual), KEEP(tensionResidual), KEEP(tanDilation), KEEP(dilationLimitSlip);
 	}
 
-	template <class Archive> void serialize(Archive& ar, blocks::EdgePair& x, unsigned) { KEEP(edge), KEEP(slip), KEEP(sigma), KEEP(tau), KEEP(area), KEEP(uplift); }
+	template <class Archive> void serialize(Archive& ar, blocks::EdgePair& x, unsigned)
+	{
+		KEEP(edge), KEEP(slip), KEEP(sigma), KEEP(tau), KEEP(area), KEEP(uplift);
+	}
 
 	template <class Archive> void serialize(Archive& ar, blocks::FreeContact& x, unsigned) { KEEP(block), KEEP(joint), KEEP(edges), KEEP(friction); }
 

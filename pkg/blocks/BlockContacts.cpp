@@ -1,6 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include "BlockContacts.hpp"
-#include <blocks/kernel/FreeContacts.hpp>
+#include <blocks/kernel/model/FreeContacts.hpp>
 #include <core/Aabb.hpp>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
@@ -12,7 +12,10 @@ BlockContacts::~BlockContacts()   = default;
 
 namespace {
 	/// How far a block's points may move until the collider looks again [m].
-	Real sweepOf(const blocks::BlockAssembly& a, int block) { return blocks::contactMargin(a, block) * Bo1_Block_Aabb::sweep / (2 * blocks::FreeContacts::mayMove); }
+	Real sweepOf(const blocks::BlockAssembly& a, int block)
+	{
+		return blocks::contactMargin(a, block) * Bo1_Block_Aabb::sweep / (2 * blocks::FreeContacts::mayMove);
+	}
 }
 
 void Bo1_Block_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body*)
@@ -71,8 +74,9 @@ void BlockContacts::refuseOtherShapes() const
 		if (dynamic_cast<const Block*>(body->shape.get())) ofBlocks |= body->groupMask;
 	for (const auto& body : *scene->bodies)
 		if (body->shape && !dynamic_cast<const Block*>(body->shape.get()) && (body->groupMask & ofBlocks))
-			throw std::runtime_error("body " + std::to_string(body->id) + " is a " + body->shape->getClassName()
-			                         + ", which blocks cannot touch: use BlockModel.addRigid, or give it a mask that no block has");
+			throw std::runtime_error(
+				"body " + std::to_string(body->id) + " is a " + body->shape->getClassName()
+				+ ", which blocks cannot touch: use BlockModel.addRigid, or give it a mask that no block has");
 }
 
 bool BlockContacts::colliderNeeded(const BlockModel& model)

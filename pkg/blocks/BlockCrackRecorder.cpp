@@ -1,6 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include "BlockCrackRecorder.hpp"
-#include <blocks/kernel/ContactKinematics.hpp>
+#include <blocks/kernel/step/ContactKinematics.hpp>
 #include <core/Omega.hpp>
 #include <fstream>
 
@@ -32,7 +32,7 @@ void BlockCrackRecorder::action()
 		const int status = int(a.points[i].joint.status);
 		if (status == known[i]) continue;
 		const bool earlier = known[i] != 0; // statuses only grow, but for a rescue
-		known[i] = status;
+		known[i]           = status;
 		if (earlier) continue;
 		points.push_back(int(i));
 		modes.push_back(status);
@@ -46,8 +46,9 @@ void BlockCrackRecorder::action()
 	for (size_t e = before; e < points.size(); ++e) {
 		const auto& g     = a.segments[points[e] / 2];
 		const auto& frame = a.frames[points[e] / 2];
-		file << steps[e] << ' ' << times[e] << ' ' << positions[e].x() << ' ' << positions[e].y() << ' ' << frame.nx << ' ' << frame.ny << ' ' << nameOf(modes[e]) << ' '
-		     << model.firstBody + g.block[0] << ' ' << model.firstBody + g.block[1] << ' ' << labelOf(model, g.block[0]) << ' ' << labelOf(model, g.block[1]) << '\n';
+		file << steps[e] << ' ' << times[e] << ' ' << positions[e].x() << ' ' << positions[e].y() << ' ' << frame.nx << ' ' << frame.ny << ' '
+		     << nameOf(modes[e]) << ' ' << model.firstBody + g.block[0] << ' ' << model.firstBody + g.block[1] << ' ' << labelOf(model, g.block[0])
+		     << ' ' << labelOf(model, g.block[1]) << '\n';
 	}
 	if (!file) throw std::runtime_error("BlockCrackRecorder.fileName: cannot write to " + fileName);
 }

@@ -30,7 +30,6 @@ public:
 	// clang-format on
 
 private:
-
 	ModelOfScene modelOf;
 };
 REGISTER_SERIALIZABLE(BlockCrackRecorder);

@@ -1,16 +1,16 @@
 // yade-blocks, GPL-2.0-or-later
 #include "BlockEngines.hpp"
 #include "RigidBodies.hpp"
-#include <blocks/kernel/CentralDifference.hpp>
-#include <blocks/kernel/FreeContacts.hpp>
-#include <blocks/kernel/NodalForces.hpp>
-#include <blocks/kernel/TimeStep.hpp>
+#include <blocks/kernel/model/FreeContacts.hpp>
+#include <blocks/kernel/step/CentralDifference.hpp>
+#include <blocks/kernel/step/NodalForces.hpp>
+#include <blocks/kernel/step/TimeStep.hpp>
+#include <chrono>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
 #include <core/EnergyTracker.hpp>
 #include <core/Omega.hpp>
 #include <lib/base/Logging.hpp>
-#include <chrono>
 #include <omp.h>
 #include <thread>
 
@@ -70,7 +70,8 @@ void BlockTimeStepper::adjust(Scene* scene)
 
 	const auto& stiffness = model.stiffness();
 	stableStep            = std::min(
-                blocks::stableTimeStep(model.assembly, stiffness, model.assembly.mass), blocks::rigidTimeStep(model.assembly, stiffness, blocks::Masses::actual));
+                blocks::stableTimeStep(model.assembly, stiffness, model.assembly.mass),
+                blocks::rigidTimeStep(model.assembly, stiffness, blocks::Masses::actual));
 	const Real kinetic = scene->trackEnergy ? blocks::gridPointsKineticEnergy(model.assembly) : 0;
 	if (quasiStatic) {
 		blocks::require(scene->dt > 0 && std::isfinite(scene->dt), "O.dt must be positive and finite [s]", scene->dt);
@@ -116,8 +117,10 @@ void BlockForces::gather()
 		frictionId = fractureId = -1;
 	}
 	if (!scene->trackEnergy) return;
-	if (dissipation.before.size() != a.points.size()) dissipation.start(a);
-	else dissipation.book(a);
+	if (dissipation.before.size() != a.points.size())
+		dissipation.start(a);
+	else
+		dissipation.book(a);
 	scene->energy->set(dissipation.friction + blocks::contactFriction(a), "blockFriction", frictionId);
 	scene->energy->set(dissipation.fracture, "blockFracture", fractureId);
 }
@@ -126,17 +129,21 @@ void BlockIntegrator::postLoad(BlockIntegrator&)
 {
 	const Settings wanted { damping, alpha, watchPeriod };
 	damping = accepted.damping, alpha = accepted.alpha, watchPeriod = accepted.watchPeriod; // what is refused must not stay
-	if (wanted.damping == "local") law.kind = blocks::Damping::Kind::local;
-	else if (wanted.damping == "adaptive") law.kind = blocks::Damping::Kind::adaptive;
-	else if (wanted.damping == "none") law.kind = blocks::Damping::Kind::none;
-	else throw std::invalid_argument("BlockIntegrator.damping must be 'local', 'adaptive' or 'none', got '" + wanted.damping + "'");
+	if (wanted.damping == "local")
+		law.kind = blocks::Damping::Kind::local;
+	else if (wanted.damping == "adaptive")
+		law.kind = blocks::Damping::Kind::adaptive;
+	else if (wanted.damping == "none")
+		law.kind = blocks::Damping::Kind::none;
+	else
+		throw std::invalid_argument("BlockIntegrator.damping must be 'local', 'adaptive' or 'none', got '" + wanted.damping + "'");
 	blocks::require(wanted.alpha >= 0 && wanted.alpha < 1, "BlockIntegrator.alpha must lie in [0, 1)", wanted.alpha);
 	blocks::require(wanted.watchPeriod >= 0, "BlockIntegrator.watchPeriod must not be negative", wanted.watchPeriod);
-	accepted       = wanted;
-	damping        = wanted.damping;
+	accepted  = wanted;
+	damping   = wanted.damping;
 	law.alpha = alpha = wanted.alpha;
-	watchPeriod    = wanted.watchPeriod;
-	checkedVersion = 0;
+	watchPeriod       = wanted.watchPeriod;
+	checkedVersion    = 0;
 }
 
 void BlockIntegrator::checkStep(BlockModel& model)
@@ -144,19 +151,23 @@ void BlockIntegrator::checkStep(BlockModel& model)
 	const blocks::BlockAssembly& a = model.assembly;
 	for (size_t pair = 0; pair < a.pairs.size(); ++pair)
 		if (!(a.joints[pair].kn > 0))
-			throw std::runtime_error("the joint between blocks " + std::to_string(a.pairs[pair].block[0]) + " and " + std::to_string(a.pairs[pair].block[1])
-			                         + " has no properties: O.engines needs an InteractionLoop with Ip2_BlockMat_BlockMat_JointPhys before BlockIntegrator");
+			throw std::runtime_error(
+				"the joint between blocks " + std::to_string(a.pairs[pair].block[0]) + " and " + std::to_string(a.pairs[pair].block[1])
+				+ " has no properties: O.engines needs an InteractionLoop with Ip2_BlockMat_BlockMat_JointPhys before BlockIntegrator");
 	blocks::require(scene->dt > 0 && std::isfinite(scene->dt), "O.dt must be positive and finite [s]", scene->dt);
 	const Real share = scene->dt / blocks::stableTimeStep(a, model.stiffness(), a.inertia), limit = blocks::largestSafety(law);
-	const Real rigidShare = scene->dt / blocks::rigidTimeStep(a, model.stiffness(), blocks::Masses::resisting), rigidLimit = 0.95 / std::sqrt(1 + model.newtonDamping);
-	blocks::require(share <= limit * (1 + 1e-9),
-	                "O.dt as a fraction of the stable time step must not exceed " + blocks::shown(limit) + " with damping='" + damping
-	                        + "' (smaller O.dt or BlockTimeStepper.safety)",
-	                share);
-	blocks::require(rigidShare <= rigidLimit * (1 + 1e-9),
-	                "O.dt as a fraction of the stable time step of rigid blocks must not exceed " + blocks::shown(rigidLimit) + " with NewtonIntegrator.damping="
-	                        + blocks::shown(model.newtonDamping) + " (smaller O.dt or BlockTimeStepper.safety)",
-	                rigidShare);
+	const Real rigidShare = scene->dt / blocks::rigidTimeStep(a, model.stiffness(), blocks::Masses::resisting),
+		   rigidLimit = 0.95 / std::sqrt(1 + model.newtonDamping);
+	blocks::require(
+		share <= limit * (1 + 1e-9),
+		"O.dt as a fraction of the stable time step must not exceed " + blocks::shown(limit) + " with damping='" + damping
+			+ "' (smaller O.dt or BlockTimeStepper.safety)",
+		share);
+	blocks::require(
+		rigidShare <= rigidLimit * (1 + 1e-9),
+		"O.dt as a fraction of the stable time step of rigid blocks must not exceed " + blocks::shown(rigidLimit)
+			+ " with NewtonIntegrator.damping=" + blocks::shown(model.newtonDamping) + " (smaller O.dt or BlockTimeStepper.safety)",
+		rigidShare);
 	checkedVersion = model.stiffnessVersion();
 	checkedDt      = scene->dt;
 }
@@ -193,11 +204,11 @@ void BlockIntegrator::advance()
 		scene->energy->set(blocks::jointEnergy(a), "blockJoints", jointsId);
 	}
 	const Real loadWork = account ? blocks::loadWork(a) : 0;
-	law.c                       = viscosity;
+	law.c               = viscosity;
 	blocks::StepWork work;
 	if (!a.rigid.empty()) work = followRigidBodies(scene, model);
 	work += blocks::integrate(a, law, scene->dt, scene->time, account, threadsFor(model, ompThreads));
-	viscosity                   = law.c;
+	viscosity = law.c;
 	if (account) {
 		scene->energy->set(work.kinetic, "blockKinetic", kineticId);
 		scene->energy->set(dissipated += pending + work.dampingBefore, "blockDamping", dampingId);
@@ -238,8 +249,8 @@ void BlockIntegrator::watchStability(BlockModel& model)
 		return;
 	}
 
-	string    message = "unstable at step " + std::to_string(step) + ", block " + std::to_string(verdict.block) + ": " + verdict.reason;
-	const long good   = watch.restore(model.assembly);
+	string     message = "unstable at step " + std::to_string(step) + ", block " + std::to_string(verdict.block) + ": " + verdict.reason;
+	const long good    = watch.restore(model.assembly);
 	if (good >= 0) {
 		restoreRigidBodies(scene, model);
 		writeCentroids(scene, model);

@@ -1,9 +1,9 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
 #include "BlockModel.hpp"
-#include <blocks/kernel/Damping.hpp>
-#include <blocks/kernel/Energy.hpp>
-#include <blocks/kernel/StabilityWatch.hpp>
+#include <blocks/kernel/analysis/Energy.hpp>
+#include <blocks/kernel/analysis/StabilityWatch.hpp>
+#include <blocks/kernel/laws/Damping.hpp>
 #include <core/GlobalEngine.hpp>
 #include <core/TimeStepper.hpp>
 #include <functional>

@@ -1,8 +1,8 @@
 // yade-blocks, GPL-2.0-or-later
 #include "BlockGeom.hpp"
-#include <blocks/kernel/ContactKinematics.hpp>
-#include <blocks/kernel/FreeContacts.hpp>
-#include <blocks/kernel/NodalForces.hpp>
+#include <blocks/kernel/model/FreeContacts.hpp>
+#include <blocks/kernel/step/ContactKinematics.hpp>
+#include <blocks/kernel/step/NodalForces.hpp>
 
 namespace yade {
 
@@ -10,24 +10,28 @@ BlockGeom::~BlockGeom()                                 = default;
 Ig2_Block_Block_BlockGeom::~Ig2_Block_Block_BlockGeom() = default;
 
 bool Ig2_Block_Block_BlockGeom::go(
-        const shared_ptr<Shape>& shape1,
-        const shared_ptr<Shape>& shape2,
-        const State&,
-        const State&,
-        const Vector3r&,
-        const bool&,
-        const shared_ptr<Interaction>& interaction)
+	const shared_ptr<Shape>& shape1,
+	const shared_ptr<Shape>& shape2,
+	const State&,
+	const State&,
+	const Vector3r&,
+	const bool&,
+	const shared_ptr<Interaction>& interaction)
 {
-	auto index = [](const shared_ptr<Shape>& shape) { return static_cast<const Block*>(shape.get())->index; };
-	auto* geom = static_cast<BlockGeom*>(interaction->geom.get());
+	auto  index = [](const shared_ptr<Shape>& shape) { return static_cast<const Block*>(shape.get())->index; };
+	auto* geom  = static_cast<BlockGeom*>(interaction->geom.get());
 	if (!geom) { // a pair that the collider has found; bonded ones have theirs from BlockModel::insert
 		interaction->geom = shared_ptr<BlockGeom>(geom = new BlockGeom);
 		geom->model       = static_cast<const Block*>(shape1.get())->model;
 	}
 	blocks::BlockAssembly& a = geom->model->assembly;
 	if (!a.contacts.wanted) { // bonds are all there is
-		if (geom->pair >= 0) blocks::updateKinematics(a, a.pairs[geom->pair].first, a.pairs[geom->pair].last);
-		else geom->model->complain("a collider has found blocks " + std::to_string(index(shape1)) + " and " + std::to_string(index(shape2)) + " near each other: O.engines needs BlockContacts in front of it, which makes their contacts");
+		if (geom->pair >= 0)
+			blocks::updateKinematics(a, a.pairs[geom->pair].first, a.pairs[geom->pair].last);
+		else
+			geom->model->complain(
+				"a collider has found blocks " + std::to_string(index(shape1)) + " and " + std::to_string(index(shape2))
+				+ " near each other: O.engines needs BlockContacts in front of it, which makes their contacts");
 		return geom->pair >= 0;
 	}
 	if (geom->contactsVersion != a.contacts.version) {
@@ -35,7 +39,8 @@ bool Ig2_Block_Block_BlockGeom::go(
 		geom->contact         = a.contacts.order.empty() ? -1 : blocks::contactOf(a, index(shape1), index(shape2), geom->contact);
 	}
 	if (geom->pair >= 0) blocks::updateKinematics(a, a.pairs[geom->pair].first, a.pairs[geom->pair].last, blocks::Which::unreleased);
-	if (geom->contact >= 0) blocks::updateContact(a, geom->contact);
+	if (geom->contact >= 0)
+		blocks::updateContact(a, geom->contact);
 	else if (geom->pair < 0 && !interaction->isReal()) {
 		if (scene->iter % requestInterval == 0) blocks::requestContact(a, index(shape1), index(shape2));
 		return false;
@@ -47,7 +52,7 @@ namespace {
 	template <class Value> py::list eachPoint(const BlockGeom& geom, const Value& value)
 	{
 		if (!geom.model) throw std::runtime_error("BlockGeom.model is empty: it is made by BlockModel.insert");
-		py::list    list;
+		py::list list;
 		if (geom.pair < 0) return list;
 		auto&       a    = geom.model->assembly;
 		const auto& pair = a.pairs[geom.pair];

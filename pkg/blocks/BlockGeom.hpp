@@ -42,7 +42,7 @@ class Ig2_Block_Block_BlockGeom : public IGeomFunctor {
 public:
 	virtual ~Ig2_Block_Block_BlockGeom();
 	bool go(const shared_ptr<Shape>&, const shared_ptr<Shape>&, const State&, const State&, const Vector3r&, const bool&, const shared_ptr<Interaction>&)
-	        override;
+		override;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC(Ig2_Block_Block_BlockGeom, IGeomFunctor,

@@ -3,7 +3,7 @@
 #include "BlockGeom.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <blocks/kernel/TimeStep.hpp>
+#include <blocks/kernel/step/TimeStep.hpp>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
 #include <core/Interaction.hpp>
@@ -44,7 +44,7 @@ const shared_ptr<BlockModel>& BlockModel::of(const Scene* scene)
 const vector<Real>& BlockModel::stiffness()
 {
 	if (knownVersion != version) {
-		knownVersion   = version;
+		knownVersion = version;
 		if (int(zoneStiffness.size()) != assembly.nodeCount()) zoneStiffness = blocks::zoneStiffness(assembly);
 		knownStiffness = blocks::nodalStiffness(assembly, zoneStiffness);
 	}
@@ -141,8 +141,8 @@ namespace {
 
 void BlockModel::requireFree(const blocks::Polygon& region) const
 {
-	using Box        = Eigen::AlignedBox<Real, 2>;
-	auto boxOf       = [](const blocks::Polygon& polygon) {
+	using Box  = Eigen::AlignedBox<Real, 2>;
+	auto boxOf = [](const blocks::Polygon& polygon) {
 		Box box;
 		for (const auto& p : polygon.outer)
 			box.extend(p);
@@ -178,7 +178,7 @@ void BlockModel::insert()
 			throw std::runtime_error("BlockModel.insert: the scene has blocks of another model already; one model holds all blocks of a scene");
 
 	size_t     rigid = 0;
-	const auto self = YADE_PTR_CAST<BlockModel>(shared_from_this());
+	const auto self  = YADE_PTR_CAST<BlockModel>(shared_from_this());
 	for (int i = 0; i < assembly.blockCount(); ++i) {
 		auto       shape    = shared_ptr<Block>(new Block);
 		auto       body     = shared_ptr<Body>(new Body);

@@ -1,10 +1,10 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
+#include <atomic>
 #include <blocks/AssemblyArchive.hpp>
 #include <core/Scene.hpp>
 #include <core/Shape.hpp>
 #include <lib/serialization/Serializable.hpp>
-#include <atomic>
 #include <mutex>
 #include <pkg/common/ElastMat.hpp>
 

@@ -1,13 +1,13 @@
 // yade-blocks, GPL-2.0-or-later
 #include "BlockModel.hpp"
 #include "JointPhys.hpp"
-#include <blocks/kernel/ContactDetection.hpp>
-#include <blocks/kernel/ContactKinematics.hpp>
-#include <blocks/kernel/ElasticJump.hpp>
-#include <blocks/kernel/Energy.hpp>
-#include <blocks/kernel/NodalForces.hpp>
-#include <blocks/kernel/Tessellation.hpp>
-#include <blocks/kernel/Zoning.hpp>
+#include <blocks/kernel/analysis/ElasticJump.hpp>
+#include <blocks/kernel/analysis/Energy.hpp>
+#include <blocks/kernel/geometry/Tessellation.hpp>
+#include <blocks/kernel/geometry/Zoning.hpp>
+#include <blocks/kernel/model/ContactDetection.hpp>
+#include <blocks/kernel/step/ContactKinematics.hpp>
+#include <blocks/kernel/step/NodalForces.hpp>
 #include <boost/python/numpy.hpp>
 #include <core/Omega.hpp>
 
@@ -59,11 +59,21 @@ namespace {
 	// ---- building
 
 	py::dict addVoronoi(
-	        BlockModel& model, const py::object& outer, const string& material, Real size, const string& sizeMeaning, int lloyd, long seed,
-	        const py::object& holes, const py::object& seeds, Real mergeFraction, const string& zoning)
+		BlockModel&       model,
+		const py::object& outer,
+		const string&     material,
+		Real              size,
+		const string&     sizeMeaning,
+		int               lloyd,
+		long              seed,
+		const py::object& holes,
+		const py::object& seeds,
+		Real              mergeFraction,
+		const string&     zoning)
 	{
 		model.requireOpen("BlockModel.addVoronoi");
-		if (sizeMeaning != "edge" && sizeMeaning != "sqrtArea") throw std::invalid_argument("sizeMeaning must be 'edge' or 'sqrtArea', got '" + sizeMeaning + "'");
+		if (sizeMeaning != "edge" && sizeMeaning != "sqrtArea")
+			throw std::invalid_argument("sizeMeaning must be 'edge' or 'sqrtArea', got '" + sizeMeaning + "'");
 		blocks::require(seed >= 0, "seed must not be negative", Real(seed));
 		const int material_ = model.materialIndex(material);
 
@@ -93,7 +103,14 @@ namespace {
 		return out;
 	}
 
-	int addRegion(BlockModel& model, const py::object& outer, const string& material, Real zoneSize, const py::object& holes, bool conforming, const string& zoning)
+	int addRegion(
+		BlockModel&       model,
+		const py::object& outer,
+		const string&     material,
+		Real              zoneSize,
+		const py::object& holes,
+		bool              conforming,
+		const string&     zoning)
 	{
 		model.requireOpen("BlockModel.addRegion");
 		const int       material_ = model.materialIndex(material);
@@ -101,8 +118,8 @@ namespace {
 		blocks::requireSimple(region, "region");
 		model.requireFree(region);
 		const blocks::Polygon claimed = region;
-		BlockAssembly&  a = model.assembly;
-		blocks::Outline outline = blocks::Outline::split;
+		BlockAssembly&        a       = model.assembly;
+		blocks::Outline       outline = blocks::Outline::split;
 		if (conforming) { // the neighbours' boundary points become this block's own
 			std::vector<Vec2> points;
 			for (const auto& edge : a.edgeNodes)
@@ -113,9 +130,12 @@ namespace {
 			if (region.outer.size() > corners) outline = blocks::Outline::kept;
 		}
 		blocks::Zones zones;
-		if (zoning == "regular") zones = blocks::regularZones(region.outer, zoneSize);
-		else if (zoning == "delaunay") zones = blocks::delaunayZones(region, zoneSize, outline);
-		else zones = zonesOf(region.outer, zoning);
+		if (zoning == "regular")
+			zones = blocks::regularZones(region.outer, zoneSize);
+		else if (zoning == "delaunay")
+			zones = blocks::delaunayZones(region, zoneSize, outline);
+		else
+			zones = zonesOf(region.outer, zoning);
 		const int block = a.addBlock(zones.points, zones.rings, zones.triangles, material_);
 		model.claim(claimed);
 		return block;
@@ -161,7 +181,8 @@ namespace {
 		g.rampTime  = rampTime;
 		g.startTime = startTime;
 		for (char axis : axes)
-			if (axis != 'x' && axis != 'y') throw std::invalid_argument("motion group \"" + name + "\": axes must be 'x', 'y' or 'xy', got '" + axes + "'");
+			if (axis != 'x' && axis != 'y')
+				throw std::invalid_argument("motion group \"" + name + "\": axes must be 'x', 'y' or 'xy', got '" + axes + "'");
 		for (long node : integers(nodes))
 			for (char axis : axes)
 				g.dofs.push_back(int(2 * node + (axis - 'x')));
@@ -215,10 +236,10 @@ namespace {
 		blocks::require(throttle >= 0 && throttle <= 1, "motion group \"" + name + "\": throttle must lie in [0, 1]", throttle);
 		model.group(name).throttle = throttle;
 	}
-	Real force(BlockModel& model, const string& name) { return model.group(name).force; }
-	Real velocity(BlockModel& model, const string& name) { return model.group(name).velocity; }
-	Real travelled(BlockModel& model, const string& name) { return model.group(name).travelled; }
-	Real work(BlockModel& model, const string& name) { return model.group(name).work; }
+	Real     force(BlockModel& model, const string& name) { return model.group(name).force; }
+	Real     velocity(BlockModel& model, const string& name) { return model.group(name).velocity; }
+	Real     travelled(BlockModel& model, const string& name) { return model.group(name).travelled; }
+	Real     work(BlockModel& model, const string& name) { return model.group(name).work; }
 	py::list groupNames(const BlockModel& model)
 	{
 		py::list names;
@@ -276,7 +297,7 @@ namespace {
 
 	py::object zoneStress(const py::object& self)
 	{
-		BlockAssembly&     a = arrays(self);
+		BlockAssembly& a = arrays(self);
 		startNumpy();
 		np::ndarray out  = np::empty(py::make_tuple(a.zoneCount(), 3), np::dtype::get_builtin<Real>());
 		Real*       data = reinterpret_cast<Real*>(out.get_data());
@@ -292,7 +313,8 @@ namespace {
 	{
 		BlockAssembly& a = arrays(self);
 		if (block < 0 || block >= a.blockCount())
-			throw std::invalid_argument("BlockModel.cornerTriangles: block must lie in [0, " + std::to_string(a.blockCount()) + "), got " + std::to_string(block));
+			throw std::invalid_argument(
+				"BlockModel.cornerTriangles: block must lie in [0, " + std::to_string(a.blockCount()) + "), got " + std::to_string(block));
 		std::vector<int>          corners; // grid points of the rings, one ring after the other
 		std::vector<blocks::Ring> rings;
 		for (int e = a.firstEdge[block], first = -1; e < a.firstEdge[block + 1]; ++e) {
@@ -314,7 +336,7 @@ namespace {
 
 	py::object contactPositions(const py::object& self)
 	{
-		BlockAssembly&     a = arrays(self);
+		BlockAssembly& a = arrays(self);
 		startNumpy();
 		np::ndarray out  = np::empty(py::make_tuple(a.points.size(), 2), np::dtype::get_builtin<Real>());
 		Real*       data = reinterpret_cast<Real*>(out.get_data());
@@ -325,17 +347,25 @@ namespace {
 		return out;
 	}
 
-#define VIEW(use, name, Number, member, columns, doc) \
+#define VIEW(use, name, Number, member, columns, doc)                                                                                                          \
 	.add_property(#name, py::make_function(+[](py::object self) -> py::object { return view<Number>(self, arrays(self).member, columns, Use::use); }), doc)
-#define VIEW_FIELD(use, name, Number, member, Item, field, columns, doc) \
-	.add_property(#name, py::make_function(+[](py::object self) -> py::object { return view<Number>(self, arrays(self).member, columns, Use::use, offsetof(blocks::Item, field)); }), doc)
+#define VIEW_FIELD(use, name, Number, member, Item, field, columns, doc)                                                                                       \
+	.add_property(                                                                                                                                         \
+		#name,                                                                                                                                         \
+		py::make_function(+[](py::object self) -> py::object {                                                                                         \
+			return view<Number>(self, arrays(self).member, columns, Use::use, offsetof(blocks::Item, field));                                      \
+		}),                                                                                                                                            \
+		doc)
 
 /// ... of joints: of those that are released, which no step follows, as they are now
-#define VIEW_JOINT(name, member, Item, field, columns, doc) \
-	.add_property(#name, py::make_function(+[](py::object self) -> py::object { \
-		blocks::updateKinematics(arrays(self), 0, int(arrays(self).segments.size()), blocks::Which::released); \
-		return view<Real>(self, arrays(self).member, columns, Use::result, offsetof(blocks::Item, field)); \
-	}), doc)
+#define VIEW_JOINT(name, member, Item, field, columns, doc)                                                                                                    \
+	.add_property(                                                                                                                                         \
+		#name,                                                                                                                                         \
+		py::make_function(+[](py::object self) -> py::object {                                                                                         \
+			blocks::updateKinematics(arrays(self), 0, int(arrays(self).segments.size()), blocks::Which::released);                                 \
+			return view<Real>(self, arrays(self).member, columns, Use::result, offsetof(blocks::Item, field));                                     \
+		}),                                                                                                                                            \
+		doc)
 
 	py::dict zoneQuality(const BlockModel& m)
 	{
@@ -360,85 +390,249 @@ namespace {
 void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::bases<Serializable>, boost::noncopyable>& c) const
 {
 	using py::arg;
-	c.def("addVoronoi", &addVoronoi,
-	      (arg("outline"), arg("material"), arg("size"), arg("sizeMeaning") = "sqrtArea", arg("lloyd") = 2, arg("seed") = 1, arg("holes") = py::tuple(),
-	       arg("seeds") = py::tuple(), arg("mergeFraction") = -1., arg("zoning") = "fan"),
-	      "Fills a simple polygon, with holes, with Voronoi blocks of a material (a label in O.materials). outline: counter-clockwise points, shape (n, 2) [m]; "
-	      "size: mean edge or mean sqrt(area) of the cells, as sizeMeaning ('edge', 'sqrtArea') says [m]; lloyd: iterations towards regular cells; seed: of the random points; "
-	      "seeds: explicit points instead; mergeFraction: edges shorter than this fraction of the size are merged (negative: the default); zoning: 'fan' (a grid point in the middle) or 'corners'. "
-	      "Returns {'blocks': (first, last+1), 'meanEdge': [m], 'meanSqrtArea': [m]}. Errors: ValueError for polygons that cross themselves or another region, and impossible sizes.")
-	        .def("addRegion", &addRegion,
+	c.def("addVoronoi",
+	      &addVoronoi,
+	      (arg("outline"),
+	       arg("material"),
+	       arg("size"),
+	       arg("sizeMeaning")   = "sqrtArea",
+	       arg("lloyd")         = 2,
+	       arg("seed")          = 1,
+	       arg("holes")         = py::tuple(),
+	       arg("seeds")         = py::tuple(),
+	       arg("mergeFraction") = -1.,
+	       arg("zoning")        = "fan"),
+	      "Fills a simple polygon, with holes, with Voronoi blocks of a material (a label in O.materials). outline: counter-clockwise points, shape (n, 2) "
+	      "[m]; "
+	      "size: mean edge or mean sqrt(area) of the cells, as sizeMeaning ('edge', 'sqrtArea') says [m]; lloyd: iterations towards regular cells; seed: "
+	      "of the random points; "
+	      "seeds: explicit points instead; mergeFraction: edges shorter than this fraction of the size are merged (negative: the default); zoning: 'fan' "
+	      "(a grid point in the middle) or 'corners'. "
+	      "Returns {'blocks': (first, last+1), 'meanEdge': [m], 'meanSqrtArea': [m]}. Errors: ValueError for polygons that cross themselves or another "
+	      "region, and impossible sizes.")
+		.def("addRegion",
+	             &addRegion,
 	             (arg("outline"), arg("material"), arg("zoneSize"), arg("holes") = py::tuple(), arg("conforming") = true, arg("zoning") = "delaunay"),
-	             "Adds one block: a simple polygon meshed with zones of the given size [m]. zoning: 'delaunay', 'regular' (rectangles), 'fan' or 'corners'. "
-	             "conforming: boundary points of the blocks that are there already become its own where they lie on its outline. Returns the block's index.")
-	        .def("addRigid", &addRigid, (arg("outline"), arg("material"), arg("holes") = py::tuple()),
-	             "Adds a rigid block: a platen or a support, of any simple outline [m], counter-clockwise, with holes. It has no zones; its density is the material's, its joints and contacts are those of the "
-	             "material pair. Its body moves by YADE's own means: it is free in the plane at first (blockedDOFs 'zXY'), and with ``O.bodies[model.bodyOf(block)].state`` it is held (blockedDOFs 'xyzXYZ'), "
-	             "driven (vel, angVel), loaded (ForceEngine, ``O.forces``). O.engines then needs ForceResetter first and, unless all rigid blocks are held, NewtonIntegrator between BlockForces and BlockIntegrator. "
-	             "``O.forces.f(id)`` is the sum of all forces on it, so the reaction of a held one is its opposite. Weight comes from :yref:`gravity<BlockModel.gravity>`; NewtonIntegrator.gravity must stay zero. "
+	             "Adds one block: a simple polygon meshed with zones of the given size [m]. zoning: 'delaunay', 'regular' (rectangles), 'fan' or "
+	             "'corners'. "
+	             "conforming: boundary points of the blocks that are there already become its own where they lie on its outline. Returns the block's "
+	             "index.")
+		.def("addRigid",
+	             &addRigid,
+	             (arg("outline"), arg("material"), arg("holes") = py::tuple()),
+	             "Adds a rigid block: a platen or a support, of any simple outline [m], counter-clockwise, with holes. It has no zones; its density is the "
+	             "material's, its joints and contacts are those of the "
+	             "material pair. Its body moves by YADE's own means: it is free in the plane at first (blockedDOFs 'zXY'), and with "
+	             "``O.bodies[model.bodyOf(block)].state`` it is held (blockedDOFs 'xyzXYZ'), "
+	             "driven (vel, angVel), loaded (ForceEngine, ``O.forces``). O.engines then needs ForceResetter first and, unless all rigid blocks are "
+	             "held, NewtonIntegrator between BlockForces and BlockIntegrator. "
+	             "``O.forces.f(id)`` is the sum of all forces on it, so the reaction of a held one is its opposite. Weight comes from "
+	             ":yref:`gravity<BlockModel.gravity>`; NewtonIntegrator.gravity must stay zero. "
 	             "Masses are scaled in quasi-static runs. Outlines need not share points with those of neighbours to be bonded. Returns the block's index.")
-	        .def("bodyOf", &BlockModel::bodyOf, (arg("block")), "Id of the body of a block; after insert().")
-	        .def("bond", &bond, (arg("tolerance") = 1e-6),
-	             "Finds the joints: overlaps of facing edges, apart by no more than tolerance times their length. To be called once, after all blocks. Returns the number of pairs. "
+		.def("bodyOf", &BlockModel::bodyOf, (arg("block")), "Id of the body of a block; after insert().")
+		.def("bond",
+	             &bond,
+	             (arg("tolerance") = 1e-6),
+	             "Finds the joints: overlaps of facing edges, apart by no more than tolerance times their length. To be called once, after all blocks. "
+	             "Returns the number of pairs. "
 	             "Errors: ValueError where blocks overlap.")
-	        .def("insert", &BlockModel::insert, "Hands the model over to the scene: one Body a block into O.bodies, one Interaction a pair into O.interactions.")
-	        .def("drive", &drive, (arg("name"), arg("nodes"), arg("axes"), arg("velocity") = 0., arg("rampTime") = 0., arg("startTime") = 0.),
+		.def("insert",
+	             &BlockModel::insert,
+	             "Hands the model over to the scene: one Body a block into O.bodies, one Interaction a pair into O.interactions.")
+		.def("drive",
+	             &drive,
+	             (arg("name"), arg("nodes"), arg("axes"), arg("velocity") = 0., arg("rampTime") = 0., arg("startTime") = 0.),
 	             "Prescribes the velocity [m/s] of grid points along 'x', 'y' or 'xy' (0: held), reached smoothly within rampTime [s] after startTime [s].")
-	        .def("push", &push, (arg("name"), arg("nodes"), arg("axis"), arg("force"), arg("rampTime") = 0., arg("startTime") = 0.),
+		.def("push",
+	             &push,
+	             (arg("name"), arg("nodes"), arg("axis"), arg("force"), arg("rampTime") = 0., arg("startTime") = 0.),
 	             "Moves grid points along one axis as one, as under a platen that stays parallel, by a total force [N].")
-	        .def("release", &release, (arg("name")), "Sets the grid points of a group free.")
-	        .def("setTarget", &setTarget, (arg("name"), arg("target"), arg("rampTime") = 0.), "New velocity [m/s] or force [N] of a group; with a rampTime [s] it starts from zero now.")
-	        .def("setThrottle", &setThrottle, (arg("name"), arg("throttle")), "Factor in [0, 1] on the velocity of a group, for servos.")
-	        .def("groupForce", &force, (arg("name")), "Force that a group puts on the blocks along its axes, in the last step [N].")
-	        .def("groupVelocity", &velocity, (arg("name")), "Present velocity of a group [m/s].")
-	        .def("groupTravelled", &travelled, (arg("name")), "Displacement of a group so far [m].")
-	        .def("groupWork", &work, (arg("name")), "Work that a group has done on the blocks [J].")
-	        .add_property("groups", &groupNames, "Names of the motion groups.")
-	        .def("gravity", &gravity, (arg("g")), "Adds gravity, a vector [m/s2], on the true masses, those of rigid blocks included.")
-	        .def("traction", &traction, (arg("edges"), arg("stress")), "Adds a traction vector [Pa] on boundary edges (indices into edgeNodes), as dead load.")
-	        .def("elasticJump", &elasticJump, (arg("fraction") = 0.97),
-	             "Leaps over the elastic part of the loading: solves for the answer to all loads, pushed groups at their full force and driven groups up to this fraction of the first failure, and goes on from there at full speed; no ramps, no settling. "
-	             "To be called after the first step, which brings the joints' properties (Mohr-Coulomb). Returns {'time': of loading at full speed that was leapt over [s], 'point': the contact point that will fail first}. "
-	             "Errors: RuntimeError where joints are broken or never were bonded, blocks are not held, nothing is driven, or the loads alone break a joint; nothing is changed then.")
-	        .def("unbalancedRatio", &unbalancedRatio, (arg("floor") = 0.),
-	             "Sum of unbalanced |force| over free degrees of freedom (of rigid blocks: of their bodies, without moments) by twice the sum of contact |forces|, the latter at least floor [N]. YADE's utils.unbalancedForce() knows nothing of grid points.")
-	        .def("kineticEnergy", &kineticEnergy, "Kinetic energy, with the scaled masses if masses are scaled [J].")
-	        .def("zoneStress", py::make_function(&zoneStress), "Cauchy stress of every zone: sxx, syy, sxy, tension positive; shape (zones, 3) [Pa]. A copy.")
-	        .def("zoneQuality", &zoneQuality,
-	             "Quality of the mesh, a dictionary: minAngle, maxAngle [rad], minArea, maxArea [m2], worstAspect (longest edge by least height, 1 for an equilateral triangle).")
-	        .def("cornerTriangles", &cornerTriangles, (arg("block")),
-	             "Triangles between the corners of a block and of its holes (constrained Delaunay), to draw rigid blocks, which have no zones: grid points, counter-clockwise, shape (triangles, 3). A copy. "
+		.def("release", &release, (arg("name")), "Sets the grid points of a group free.")
+		.def("setTarget",
+	             &setTarget,
+	             (arg("name"), arg("target"), arg("rampTime") = 0.),
+	             "New velocity [m/s] or force [N] of a group; with a rampTime [s] it starts from zero now.")
+		.def("setThrottle", &setThrottle, (arg("name"), arg("throttle")), "Factor in [0, 1] on the velocity of a group, for servos.")
+		.def("groupForce", &force, (arg("name")), "Force that a group puts on the blocks along its axes, in the last step [N].")
+		.def("groupVelocity", &velocity, (arg("name")), "Present velocity of a group [m/s].")
+		.def("groupTravelled", &travelled, (arg("name")), "Displacement of a group so far [m].")
+		.def("groupWork", &work, (arg("name")), "Work that a group has done on the blocks [J].")
+		.add_property("groups", &groupNames, "Names of the motion groups.")
+		.def("gravity", &gravity, (arg("g")), "Adds gravity, a vector [m/s2], on the true masses, those of rigid blocks included.")
+		.def("traction",
+	             &traction,
+	             (arg("edges"), arg("stress")),
+	             "Adds a traction vector [Pa] on boundary edges (indices into edgeNodes), as dead load.")
+		.def("elasticJump",
+	             &elasticJump,
+	             (arg("fraction") = 0.97),
+	             "Leaps over the elastic part of the loading: solves for the answer to all loads, pushed groups at their full force and driven groups up "
+	             "to this fraction of the first failure, and goes on from there at full speed; no ramps, no settling. "
+	             "To be called after the first step, which brings the joints' properties (Mohr-Coulomb). Returns {'time': of loading at full speed that "
+	             "was leapt over [s], 'point': the contact point that will fail first}. "
+	             "Errors: RuntimeError where joints are broken or never were bonded, blocks are not held, nothing is driven, or the loads alone break a "
+	             "joint; nothing is changed then.")
+		.def("unbalancedRatio",
+	             &unbalancedRatio,
+	             (arg("floor") = 0.),
+	             "Sum of unbalanced |force| over free degrees of freedom (of rigid blocks: of their bodies, without moments) by twice the sum of contact "
+	             "|forces|, the latter at least floor [N]. YADE's utils.unbalancedForce() knows nothing of grid points.")
+		.def("kineticEnergy", &kineticEnergy, "Kinetic energy, with the scaled masses if masses are scaled [J].")
+		.def("zoneStress",
+	             py::make_function(&zoneStress),
+	             "Cauchy stress of every zone: sxx, syy, sxy, tension positive; shape (zones, 3) [Pa]. A copy.")
+		.def("zoneQuality",
+	             &zoneQuality,
+	             "Quality of the mesh, a dictionary: minAngle, maxAngle [rad], minArea, maxArea [m2], worstAspect (longest edge by least height, 1 for an "
+	             "equilateral triangle).")
+		.def("cornerTriangles",
+	             &cornerTriangles,
+	             (arg("block")),
+	             "Triangles between the corners of a block and of its holes (constrained Delaunay), to draw rigid blocks, which have no zones: grid "
+	             "points, counter-clockwise, shape (triangles, 3). A copy. "
 	             "Errors: ValueError for a block that is not there.")
-	        .def("contactPositions", py::make_function(&contactPositions), "Positions of the contact points, shape (contact points, 2) [m]. A copy.")
-	        .add_property("blockCount", &blockCount, "Number of blocks.")
-	        .add_property("nodeCount", &nodeCount, "Number of grid points.")
-	        .add_property("zoneCount", &zoneCount, "Number of zones.")
-	        .add_property("contactCount", &contactCount, "Number of contact points.")
-	                VIEW(state, position, Real, position, 2, "Grid points' positions, shape (grid points, 2) [m].")
-	                VIEW(result, reference, Real, reference, 2, "Grid points' positions without stress, shape (grid points, 2) [m].")
-	                VIEW(state, velocity, Real, velocity, 2, "Grid points' velocities half a step ago, shape (grid points, 2) [m/s].")
-	                VIEW(result, force, Real, force, 2, "Grid points' unbalanced forces, shape (grid points, 2) [N].")
-	                VIEW(result, mass, Real, mass, 1, "Grid points' true masses; 0 on rigid blocks, whose body has it all [kg].")
-	                VIEW(result, inertia, Real, inertia, 1, "Grid points' masses as they resist motion, scaled if BlockTimeStepper scales them [kg].")
-	                VIEW(result, zoneNodes, int, zoneNodes, 3, "Grid points of every zone, counter-clockwise, shape (zones, 3).")
-	                VIEW(result, zoneVolume, Real, zoneVolume, 1, "Volumes of the zones [m3].")
-	                VIEW(result, firstNode, int, firstNode, 1, "First grid point of every block, and their number at the end.")
-	                VIEW(result, firstZone, int, firstZone, 1, "First zone of every block, and their number at the end.")
-	                VIEW(result, firstEdge, int, firstEdge, 1, "First boundary edge of every block, and their number at the end.")
-	                VIEW(result, blockMaterial, int, blockMaterial, 1, "Material of every block, an index into materialLabels.")
-	                VIEW(result, edgeNodes, int, edgeNodes, 2, "Grid points of the boundary edges, material on the left, shape (edges, 2).")
-	                VIEW_FIELD(result, segmentNodes, int, segments, Segment, node, 4, "Edge a1, b1 of the first and a2, b2 of the second block of every segment, shape (segments, 4).")
-	                VIEW_FIELD(result, segmentBlocks, int, segments, Segment, block, 2, "The two blocks of every segment, shape (segments, 2).")
-	                VIEW_FIELD(result, segmentParameters, Real, segments, Segment, s1, 4, "Where the two contact points are along the first edge, then along the second (0 at a, 1 at b), shape (segments, 4).")
-	                VIEW_FIELD(result, segmentArea, Real, segments, Segment, area, 1, "Area of each of the two contact points of every segment; 0 once it has broken and its edges are a free contact, which has all that they carry [m2].")
-	                VIEW_JOINT(normal, frames, SegmentFrame, nx, 2, "Unit normals of the segments, out of the first block, shape (segments, 2).")
-	                VIEW_JOINT(pointOpening, points, ContactPoint, opening, 1, "Openings of the contact points, two a segment [m].")
-	                VIEW_JOINT(pointSlip, points, ContactPoint, slip, 1, "Slips of the contact points [m].")
-	                VIEW_FIELD(result, pointSigma, Real, points, ContactPoint, sigma, 1, "Normal stresses of the contact points, tension positive [Pa].")
-	                VIEW_FIELD(result, pointTau, Real, points, ContactPoint, tau, 1, "Shear stresses of the contact points [Pa].")
-	                .add_property("pointStatus", py::make_function(+[](py::object self) -> py::object {
-		                return view<std::uint8_t>(self, arrays(self).points, 1, Use::result, offsetof(blocks::ContactPoint, joint) + offsetof(blocks::JointState, status));
-	                }), "0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded.");
+		.def("contactPositions", py::make_function(&contactPositions), "Positions of the contact points, shape (contact points, 2) [m]. A copy.")
+		.add_property("blockCount", &blockCount, "Number of blocks.")
+		.add_property("nodeCount", &nodeCount, "Number of grid points.")
+		.add_property("zoneCount", &zoneCount, "Number of zones.")
+		.add_property("contactCount", &contactCount, "Number of contact points.") VIEW(
+			state, position, Real, position, 2, "Grid points' positions, shape (grid points, 2) [m].")
+			VIEW(result, reference, Real, reference, 2, "Grid points' positions without stress, shape (grid points, 2) [m].") VIEW(
+				state, velocity, Real, velocity, 2, "Grid points' velocities half a step ago, shape (grid points, 2) [m/s].")
+				VIEW(result, force, Real, force, 2, "Grid points' unbalanced forces, shape (grid points, 2) [N].") VIEW(
+					result, mass, Real, mass, 1, "Grid points' true masses; 0 on rigid blocks, whose body has it all [kg].")
+					VIEW(result, inertia, Real, inertia, 1, "Grid points' masses as they resist motion, scaled if BlockTimeStepper scales them [kg].") VIEW(
+						result, zoneNodes, int, zoneNodes, 3, "Grid points of every zone, counter-clockwise, shape (zones, 3).")
+						VIEW(result, zoneVolume, Real, zoneVolume, 1, "Volumes of the zones [m3].") VIEW(
+							result, firstNode, int, firstNode, 1, "First grid point of every block, and their number at the end.")
+							VIEW(result, firstZone, int, firstZone, 1, "First zone of every block, and their number at the end.") VIEW(
+								result,
+								firstEdge,
+								int,
+								firstEdge,
+								1,
+								"First boundary edge of every block, and their number at the end.")
+								VIEW(result,
+	                                                             blockMaterial,
+	                                                             int,
+	                                                             blockMaterial,
+	                                                             1,
+	                                                             "Material of every block, an index into materialLabels.")
+									VIEW(result,
+	                                                                     edgeNodes,
+	                                                                     int,
+	                                                                     edgeNodes,
+	                                                                     2,
+	                                                                     "Grid points of the boundary edges, material on the left, shape (edges, 2).")
+										VIEW_FIELD(
+											result,
+											segmentNodes,
+											int,
+											segments,
+											Segment,
+											node,
+											4,
+											"Edge a1, b1 of the first and a2, b2 of the second block of every "
+	                                                                                "segment, shape (segments, 4).")
+											VIEW_FIELD(
+												result,
+												segmentBlocks,
+												int,
+												segments,
+												Segment,
+												block,
+												2,
+												"The two blocks of every segment, shape (segments, 2).")
+												VIEW_FIELD(
+													result,
+													segmentParameters,
+													Real,
+													segments,
+													Segment,
+													s1,
+													4,
+													"Where the two contact points are along the first "
+	                                                                                                "edge, then along the second (0 at a, 1 at b), shape "
+	                                                                                                "(segments, 4).")
+													VIEW_FIELD(
+														result,
+														segmentArea,
+														Real,
+														segments,
+														Segment,
+														area,
+														1,
+														"Area of each of the two contact points of "
+	                                                                                                        "every segment; 0 once it has broken and its "
+	                                                                                                        "edges are a free contact, which has all that "
+	                                                                                                        "they carry [m2].")
+														VIEW_JOINT(
+															normal,
+															frames,
+															SegmentFrame,
+															nx,
+															2,
+															"Unit normals of the segments, out of "
+	                                                                                                                "the first block, shape (segments, 2).")
+															VIEW_JOINT(
+																pointOpening,
+																points,
+																ContactPoint,
+																opening,
+																1,
+																"Openings of the contact "
+	                                                                                                                        "points, two a segment [m].")
+																VIEW_JOINT(
+																	pointSlip,
+																	points,
+																	ContactPoint,
+																	slip,
+																	1,
+																	"Slips of the contact "
+	                                                                                                                                "points [m].")
+																	VIEW_FIELD(
+																		result,
+																		pointSigma,
+																		Real,
+																		points,
+																		ContactPoint,
+																		sigma,
+																		1,
+																		"Normal "
+	                                                                                                                                        "stresses of "
+	                                                                                                                                        "the contact "
+	                                                                                                                                        "points, "
+	                                                                                                                                        "tension "
+	                                                                                                                                        "positive "
+	                                                                                                                                        "[Pa].")
+																		VIEW_FIELD(
+																			result,
+																			pointTau,
+																			Real,
+																			points,
+																			ContactPoint,
+																			tau,
+																			1,
+																			"Shear "
+	                                                                                                                                                "stress"
+	                                                                                                                                                "es of "
+	                                                                                                                                                "the "
+	                                                                                                                                                "contac"
+	                                                                                                                                                "t "
+	                                                                                                                                                "points"
+	                                                                                                                                                " [Pa]"
+	                                                                                                                                                ".")
+		.add_property(
+			"pointStatus",
+			py::make_function(+[](py::object self) -> py::object {
+				return view<std::uint8_t>(
+					self,
+					arrays(self).points,
+					1,
+					Use::result,
+					offsetof(blocks::ContactPoint, joint) + offsetof(blocks::JointState, status));
+			}),
+			"0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded.");
 }
 
 namespace {
@@ -461,7 +655,7 @@ namespace {
 
 	template <class Value> py::list ofPoints(const JointPhys& phys, const Value& value)
 	{
-		py::list    list;
+		py::list list;
 		phys.joint();
 		const auto& a = phys.model->assembly;
 		for (int i = 2 * a.pairs[phys.pair].first; i < 2 * a.pairs[phys.pair].last; ++i)
@@ -486,18 +680,19 @@ void JointPhysPython::visit(py::class_<JointPhys, shared_ptr<JointPhys>, py::bas
 {
 	using P = blocks::JointParams;
 	c.add_property("kn", &get<&P::kn>, &set<&P::kn>, "Normal stiffness [Pa/m].")
-	        .add_property("ks", &get<&P::ks>, &set<&P::ks>, "Shear stiffness [Pa/m].")
-	        .add_property("cohesion", &get<&P::cohesion>, &set<&P::cohesion>, "Cohesion [Pa].")
-	        .add_property("tension", &get<&P::tension>, &set<&P::tension>, "Tensile strength [Pa].")
-	        .add_property("cohesionResidual", &get<&P::cohesionResidual>, &set<&P::cohesionResidual>, "Cohesion after failure [Pa].")
-	        .add_property("tensionResidual", &get<&P::tensionResidual>, &set<&P::tensionResidual>, "Tensile strength after failure [Pa].")
-	        .add_property("dilationLimitSlip", &get<&P::dilationLimitSlip>, &set<&P::dilationLimitSlip>, "Slip beyond which the joint dilates no further [m].")
-	        .add_property("frictionAngle", &getAngle<&P::tanPhi>, &setAngle<&P::tanPhi>, "Friction angle [rad].")
-	        .add_property("frictionAngleResidual", &getAngle<&P::tanPhiResidual>, &setAngle<&P::tanPhiResidual>, "Friction angle after failure [rad].")
-	        .add_property("dilationAngle", &getAngle<&P::tanDilation>, &setAngle<&P::tanDilation>, "Dilation angle [rad].")
-	        .add_property("sigma", &sigma, "Normal stresses at the pair's contact points, tension positive [Pa].")
-	        .add_property("tau", &tau, "Shear stresses at the pair's contact points [Pa].")
-	        .add_property("status", &status, "Of the pair's contact points: 0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded.");
+		.add_property("ks", &get<&P::ks>, &set<&P::ks>, "Shear stiffness [Pa/m].")
+		.add_property("cohesion", &get<&P::cohesion>, &set<&P::cohesion>, "Cohesion [Pa].")
+		.add_property("tension", &get<&P::tension>, &set<&P::tension>, "Tensile strength [Pa].")
+		.add_property("cohesionResidual", &get<&P::cohesionResidual>, &set<&P::cohesionResidual>, "Cohesion after failure [Pa].")
+		.add_property("tensionResidual", &get<&P::tensionResidual>, &set<&P::tensionResidual>, "Tensile strength after failure [Pa].")
+		.add_property(
+			"dilationLimitSlip", &get<&P::dilationLimitSlip>, &set<&P::dilationLimitSlip>, "Slip beyond which the joint dilates no further [m].")
+		.add_property("frictionAngle", &getAngle<&P::tanPhi>, &setAngle<&P::tanPhi>, "Friction angle [rad].")
+		.add_property("frictionAngleResidual", &getAngle<&P::tanPhiResidual>, &setAngle<&P::tanPhiResidual>, "Friction angle after failure [rad].")
+		.add_property("dilationAngle", &getAngle<&P::tanDilation>, &setAngle<&P::tanDilation>, "Dilation angle [rad].")
+		.add_property("sigma", &sigma, "Normal stresses at the pair's contact points, tension positive [Pa].")
+		.add_property("tau", &tau, "Shear stresses at the pair's contact points [Pa].")
+		.add_property("status", &status, "Of the pair's contact points: 0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded.");
 }
 
 } // namespace yade

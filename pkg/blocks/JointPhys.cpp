@@ -1,7 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include "JointPhys.hpp"
-#include <blocks/kernel/FreeContacts.hpp>
-#include <blocks/kernel/NodalForces.hpp>
+#include <blocks/kernel/model/FreeContacts.hpp>
+#include <blocks/kernel/step/NodalForces.hpp>
 #include <limits>
 
 namespace yade {
@@ -44,28 +44,33 @@ blocks::JointParams JointMat::params() const
 	return bonded ? p : unbonded(p);
 }
 
-void Ip2_BlockMat_BlockMat_JointPhys::go(const shared_ptr<Material>& material1, const shared_ptr<Material>& material2, const shared_ptr<Interaction>& interaction)
+void Ip2_BlockMat_BlockMat_JointPhys::go(
+	const shared_ptr<Material>& material1, const shared_ptr<Material>& material2, const shared_ptr<Interaction>& interaction)
 {
 	if (interaction->phys) return;
-	const auto* geom = static_cast<const BlockGeom*>(interaction->geom.get());
-	auto        phys = shared_ptr<JointPhys>(new JointPhys);
-	phys->model      = geom->model;
-	phys->pair       = geom->pair;
-	phys->contact    = geom->contact;
+	const auto* geom  = static_cast<const BlockGeom*>(interaction->geom.get());
+	auto        phys  = shared_ptr<JointPhys>(new JointPhys);
+	phys->model       = geom->model;
+	phys->pair        = geom->pair;
+	phys->contact     = geom->contact;
 	interaction->phys = phys;
 
 	const string &a = material1->label, &b = material2->label;
 	for (const auto& joint : jointList) {
 		if (!((joint->material1 == a && joint->material2 == b) || (joint->material1 == b && joint->material2 == a))) continue;
 		try {
-			if (geom->pair >= 0) geom->model->setJoint(geom->pair, joint->params(), joint->bonded);
-			else blocks::setContactJoint(geom->model->assembly, geom->contact, unbonded(joint->params()));
+			if (geom->pair >= 0)
+				geom->model->setJoint(geom->pair, joint->params(), joint->bonded);
+			else
+				blocks::setContactJoint(geom->model->assembly, geom->contact, unbonded(joint->params()));
 		} catch (const std::exception& error) { // changed after it was checked
 			geom->model->complain(error.what());
 		}
 		return;
 	}
-	geom->model->complain("Ip2_BlockMat_BlockMat_JointPhys.joints has no JointMat for the pair of materials \"" + std::min(a, b) + "\" and \"" + std::max(a, b) + "\", whose blocks touch");
+	geom->model->complain(
+		"Ip2_BlockMat_BlockMat_JointPhys.joints has no JointMat for the pair of materials \"" + std::min(a, b) + "\" and \"" + std::max(a, b)
+		+ "\", whose blocks touch");
 }
 
 void Ip2_BlockMat_BlockMat_JointPhys::pyHandleCustomCtorArgs(py::tuple&, py::dict& keywords)
@@ -90,12 +95,16 @@ void Ip2_BlockMat_BlockMat_JointPhys::setJoints(const py::object& joints)
 		checked.push_back(py::extract<shared_ptr<JointMat>>(joints[i]));
 		const JointMat& joint = *checked.back();
 		if (joint.material1.empty() || joint.material2.empty())
-			throw std::invalid_argument("JointMat.material1 and material2 must be labels of materials, got \"" + joint.material1 + "\" and \"" + joint.material2 + "\"");
+			throw std::invalid_argument(
+				"JointMat.material1 and material2 must be labels of materials, got \"" + joint.material1 + "\" and \"" + joint.material2
+				+ "\"");
 		joint.params(); // refuses impossible values now
 		for (long j = 0; j < i; ++j) {
 			const JointMat& other = *checked[j];
-			if ((joint.material1 == other.material1 && joint.material2 == other.material2) || (joint.material1 == other.material2 && joint.material2 == other.material1))
-				throw std::invalid_argument("two JointMats for the pair of materials \"" + joint.material1 + "\" and \"" + joint.material2 + "\"");
+			if ((joint.material1 == other.material1 && joint.material2 == other.material2)
+			    || (joint.material1 == other.material2 && joint.material2 == other.material1))
+				throw std::invalid_argument(
+					"two JointMats for the pair of materials \"" + joint.material1 + "\" and \"" + joint.material2 + "\"");
 		}
 	}
 	jointList = std::move(checked);

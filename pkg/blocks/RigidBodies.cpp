@@ -33,26 +33,33 @@ const Engine* requireMovers(const Scene* scene, const BlockModel& model)
 {
 	enum { resetter, forces, newton, integrator, count };
 	int           place[count] = { -1, -1, -1, -1 }, i = 0;
-	const Engine* mover        = nullptr;
+	const Engine* mover = nullptr;
 	for (const auto& engine : scene->engines) {
 		const Engine& e = *engine;
 		++i;
 		if (e.dead) continue;
-		if (is(e, "N4yade13ForceResetterE")) place[resetter] = i;
-		else if (is(e, "N4yade16NewtonIntegratorE")) place[newton] = i, mover = &e;
-		else if (dynamic_cast<const BlockForces*>(&e)) place[forces] = i;
-		else if (dynamic_cast<const BlockIntegrator*>(&e)) place[integrator] = i;
+		if (is(e, "N4yade13ForceResetterE"))
+			place[resetter] = i;
+		else if (is(e, "N4yade16NewtonIntegratorE"))
+			place[newton] = i, mover = &e;
+		else if (dynamic_cast<const BlockForces*>(&e))
+			place[forces] = i;
+		else if (dynamic_cast<const BlockIntegrator*>(&e))
+			place[integrator] = i;
 	}
 	if (place[resetter] < 0 || place[resetter] > place[forces])
-		throw std::runtime_error("O.engines needs a ForceResetter before BlockForces because of " + named(model, model.assembly.rigid.front())
-		                         + ", or forces on its body would add up from step to step");
+		throw std::runtime_error(
+			"O.engines needs a ForceResetter before BlockForces because of " + named(model, model.assembly.rigid.front())
+			+ ", or forces on its body would add up from step to step");
 	if (place[newton] > place[forces] && place[newton] < place[integrator]) return mover;
 	if (mover)
-		throw std::runtime_error("NewtonIntegrator must stand between BlockForces and BlockIntegrator in O.engines, or rigid blocks would move one step late");
+		throw std::runtime_error(
+			"NewtonIntegrator must stand between BlockForces and BlockIntegrator in O.engines, or rigid blocks would move one step late");
 	for (const auto& r : model.assembly.rigid)
 		if (!isHeld(stateOf(scene, model, r)))
-			throw std::runtime_error("O.engines needs a NewtonIntegrator between BlockForces and BlockIntegrator to move " + named(model, r)
-			                         + ", which is not held (blockedDOFs 'xyzXYZ' and no velocity)");
+			throw std::runtime_error(
+				"O.engines needs a NewtonIntegrator between BlockForces and BlockIntegrator to move " + named(model, r)
+				+ ", which is not held (blockedDOFs 'xyzXYZ' and no velocity)");
 	return nullptr;
 }
 
@@ -65,8 +72,9 @@ Real newtonDamping(const Engine& newton)
 	const py::dict attributes = newton.pyDict();
 	const Vector3r gravity    = py::extract<Vector3r>(attributes["gravity"]);
 	if (gravity != Vector3r::Zero())
-		throw std::runtime_error("NewtonIntegrator.gravity must be zero with rigid blocks, whose mass may be scaled: give it to BlockModel.gravity, got ("
-		                         + blocks::shown(gravity.x()) + ", " + blocks::shown(gravity.y()) + ", " + blocks::shown(gravity.z()) + ")");
+		throw std::runtime_error(
+			"NewtonIntegrator.gravity must be zero with rigid blocks, whose mass may be scaled: give it to BlockModel.gravity, got ("
+			+ blocks::shown(gravity.x()) + ", " + blocks::shown(gravity.y()) + ", " + blocks::shown(gravity.z()) + ")");
 	return py::extract<Real>(attributes["damping"]);
 }
 
@@ -105,9 +113,10 @@ void addRigidForces(Scene* scene, BlockModel& model)
 	for (auto& r : model.assembly.rigid) {
 		const State& state = stateOf(scene, model, r);
 		if (state.mass != r.inertia || state.inertia.z() != r.rotaryInertia)
-			throw std::runtime_error("state.mass and state.inertia of " + named(model, r) + " follow from its material and BlockTimeStepper, "
-			                         + blocks::shown(r.inertia) + " kg and " + blocks::shown(r.rotaryInertia) + " kg m2, got " + blocks::shown(state.mass) + " and "
-			                         + blocks::shown(state.inertia.z()));
+			throw std::runtime_error(
+				"state.mass and state.inertia of " + named(model, r) + " follow from its material and BlockTimeStepper, "
+				+ blocks::shown(r.inertia) + " kg and " + blocks::shown(r.rotaryInertia) + " kg m2, got " + blocks::shown(state.mass) + " and "
+				+ blocks::shown(state.inertia.z()));
 		const blocks::Vec3 velocity = inPlane(state.vel, state.angVel);
 		for (int i = 0; i < 3; ++i) // a script may have set it; along prescribed directions the change is work, which is booked
 			if (r.free[i]) r.velocity[i] = velocity[i];
@@ -127,12 +136,14 @@ blocks::StepWork followRigidBodies(Scene* scene, BlockModel& model)
 		if (state.pos.z() != 0 || ori.x() != 0 || ori.y() != 0)
 			throw std::runtime_error(named(model, r) + " has left the x-y plane: block 'zXY' in its blockedDOFs");
 		const int id = model.firstBody + r.block;
-		work += blocks::followRigidMotion(model.assembly, r,
-		                                  { { state.pos.x(), state.pos.y() },
-		                                    { ori.w(), ori.z() },
-		                                    inPlane(state.vel, state.angVel),
-		                                    inPlane(scene->forces.getForce(id), scene->forces.getTorque(id)) },
-		                                  scene->dt);
+		work += blocks::followRigidMotion(
+			model.assembly,
+			r,
+			{ { state.pos.x(), state.pos.y() },
+		          { ori.w(), ori.z() },
+		          inPlane(state.vel, state.angVel),
+		          inPlane(scene->forces.getForce(id), scene->forces.getTorque(id)) },
+			scene->dt);
 	}
 	return work;
 }
@@ -140,11 +151,11 @@ blocks::StepWork followRigidBodies(Scene* scene, BlockModel& model)
 void restoreRigidBodies(const Scene* scene, const BlockModel& model)
 {
 	for (const auto& r : model.assembly.rigid) {
-		State& state = stateOf(scene, model, r);
-		state.pos    = { r.centre.x(), r.centre.y(), 0 };
-		state.ori    = Quaternionr(r.halfTurn.x(), 0, 0, r.halfTurn.y());
-		state.vel    = { r.velocity[0], r.velocity[1], 0 };
-		state.angVel = { 0, 0, r.velocity[2] };
+		State& state  = stateOf(scene, model, r);
+		state.pos     = { r.centre.x(), r.centre.y(), 0 };
+		state.ori     = Quaternionr(r.halfTurn.x(), 0, 0, r.halfTurn.y());
+		state.vel     = { r.velocity[0], r.velocity[1], 0 };
+		state.angVel  = { 0, 0, r.velocity[2] };
 		state.mass    = r.inertia;
 		state.inertia = Vector3r::Constant(r.rotaryInertia);
 	}

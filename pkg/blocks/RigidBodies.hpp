@@ -1,7 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
 #include "BlockModel.hpp"
-#include <blocks/kernel/RigidBlocks.hpp>
+#include <blocks/kernel/step/RigidBlocks.hpp>
 
 /// Rigid blocks as bodies that YADE's own engines move: what the block engines read from their State and write to it. Scenes without
 /// rigid blocks do not come here.

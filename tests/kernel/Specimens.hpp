@@ -1,12 +1,12 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
-#include <blocks/kernel/CentralDifference.hpp>
-#include <blocks/kernel/ContactDetection.hpp>
-#include <blocks/kernel/ContactKinematics.hpp>
-#include <blocks/kernel/Energy.hpp>
-#include <blocks/kernel/NodalForces.hpp>
-#include <blocks/kernel/Tessellation.hpp>
-#include <blocks/kernel/TimeStep.hpp>
+#include <blocks/kernel/analysis/Energy.hpp>
+#include <blocks/kernel/geometry/Tessellation.hpp>
+#include <blocks/kernel/model/ContactDetection.hpp>
+#include <blocks/kernel/step/CentralDifference.hpp>
+#include <blocks/kernel/step/ContactKinematics.hpp>
+#include <blocks/kernel/step/NodalForces.hpp>
+#include <blocks/kernel/step/TimeStep.hpp>
 
 #include <Eigen/Dense>
 #include <functional>
@@ -70,10 +70,14 @@ inline int addGrid(BlockAssembly& a, Vec2 corner, Real width, Real height, int n
 			zones.push_back({ id(i, j), id(i + 1, j), id(i + 1, j + 1) });
 			zones.push_back({ id(i, j), id(i + 1, j + 1), id(i, j + 1) });
 		}
-	for (int i = 0; i < nx; ++i) outline.push_back(id(i, 0));
-	for (int j = 0; j < ny; ++j) outline.push_back(id(nx, j));
-	for (int i = nx; i > 0; --i) outline.push_back(id(i, ny));
-	for (int j = ny; j > 0; --j) outline.push_back(id(0, j));
+	for (int i = 0; i < nx; ++i)
+		outline.push_back(id(i, 0));
+	for (int j = 0; j < ny; ++j)
+		outline.push_back(id(nx, j));
+	for (int i = nx; i > 0; --i)
+		outline.push_back(id(i, ny));
+	for (int j = ny; j > 0; --j)
+		outline.push_back(id(0, j));
 	return a.addBlock(points, { outline }, zones, material);
 }
 
@@ -275,9 +279,10 @@ inline ZoneStress stressOfZone(const BlockAssembly& a, int zone)
 	const auto&     node = a.zoneNodes[zone];
 	const Vec2      p = a.position[node[1]] - a.position[node[0]], q = a.position[node[2]] - a.position[node[0]];
 	const auto&     g = a.zoneGradient[zone];
-	return zoneStress(planeModuli(m.young, m.poisson, a.plane),
-	                  a.strain == Strain::large ? zoneStrain<Strain::large>(g, p.x(), p.y(), q.x(), q.y())
-	                                            : zoneStrain<Strain::small>(g, p.x(), p.y(), q.x(), q.y()));
+	return zoneStress(
+		planeModuli(m.young, m.poisson, a.plane),
+		a.strain == Strain::large ? zoneStrain<Strain::large>(g, p.x(), p.y(), q.x(), q.y())
+					  : zoneStrain<Strain::small>(g, p.x(), p.y(), q.x(), q.y()));
 }
 
 /// Boundary edges without a neighbour: on the outline of a w x h rectangle, with the outward normal.

@@ -1,0 +1,139 @@
+// yade-blocks, GPL-2.0-or-later
+#include <blocks/kernel/analysis/Energy.hpp>
+#include <blocks/kernel/analysis/StabilityWatch.hpp>
+
+namespace blocks {
+namespace {
+
+	/// The block with the most kinetic energy in one grid point, or in a rigid block's share for one of its own.
+	int fastestBlock(const BlockAssembly& a)
+	{
+		int  fastest = 0;
+		Real most    = -1;
+		for (int n = 0; n < a.nodeCount(); ++n)
+			if (a.inertia[n] * a.velocity[n].squaredNorm() > most) most = a.inertia[n] * a.velocity[n].squaredNorm(), fastest = a.blockOfNode(n);
+		for (const RigidBlock& r : a.rigid) {
+			const Real energy = (r.inertia * r.velocity.head<2>().squaredNorm() + r.rotaryInertia * r.velocity[2] * r.velocity[2])
+				/ (a.firstNode[r.block + 1] - a.firstNode[r.block]);
+			if (energy > most) most = energy, fastest = r.block;
+		}
+		return fastest;
+	}
+
+	/// "blocks 3 and 7 overlap by 1e-05 m, 12 % of the height of the zones behind (8e-05 m)"
+	std::string described(const Overlap& o)
+	{
+		char text[160];
+		std::snprintf(
+			text,
+			sizeof text,
+			"blocks %d and %d overlap by %.3g m, %.0f %% of the height of the zones behind (%.3g m)",
+			o.block[0],
+			o.block[1],
+			o.depth,
+			100 * o.share(),
+			o.height);
+		return text;
+	}
+
+	/// What half a step of the present forces adds to the kinetic energy, dt v.f / 2.
+	Real kineticChange(const BlockAssembly& a, Real time, Real dt)
+	{
+		Real power = 0;
+		for (int n = 0; n < a.nodeCount(); ++n)
+			for (int axis : { 0, 1 })
+				if (a.mobility[n][axis] > 0) power += a.velocity[n][axis] * a.force[n][axis];
+		for (const MotionGroup& g : a.groups) {
+			if (g.drive == MotionGroup::Drive::velocity) continue;
+			power += g.velocity * g.target * g.ramp(time);
+			for (int dof : g.dofs)
+				power += g.velocity * a.force[dof / 2][dof % 2];
+		}
+		for (const RigidBlock& r : a.rigid)
+			for (int i = 0; i < 3; ++i)
+				if (r.free[i]) power += r.velocity[i] * r.force[i];
+		return power * dt / 2;
+	}
+} // namespace
+
+StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, Real time, Real dt)
+{
+	const int bad = a.firstBadNode();
+	if (bad >= 0) return { false, a.blockOfNode(bad), "the motion of a grid point is not a number" };
+
+	overlaps.look(a);
+	const char* const cure    = "; joints must be stiffer or loads smaller";
+	const std::string entered = overlaps.entries == 0 ? "" : "has gone into block " + std::to_string(overlaps.through[1]) + " by more than half";
+	if (overlaps.entries > lostShare * a.blockCount()) return { false, overlaps.through[0], "it " + entered + cure };
+	if (overlaps.inverted >= 0) return { false, overlaps.inverted, "a zone has turned inside out" };
+	if (overlaps.mean > OverlapWatch::thin) {
+		char share[16];
+		std::snprintf(share, sizeof share, "%.0f %%", 100 * overlaps.mean);
+		return { false,
+			 overlaps.joint.block[0],
+			 std::string("joints overlap by ") + share + " of the height of the zones behind in the mean, most of all " + described(overlaps.joint)
+			         + cure };
+	}
+
+	Real turnover = 0;
+	for (const MotionGroup& g : a.groups)
+		turnover += g.workTurnover;
+	for (const RigidBlock& r : a.rigid)
+		turnover += r.workTurnover;
+	const Real loads = loadWork(a), swinging = zoneEnergy(a) + jointEnergy(a) + kineticEnergy(a), energy = swinging + kineticChange(a, time, dt);
+	if (!begun) {
+		roundingEnergy = 0;
+		for (int block = 0; block < a.blockCount(); ++block)
+			for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z)
+				roundingEnergy += a.materials[a.blockMaterial[block]].young * a.zoneVolume[z] * roundingStrain * roundingStrain;
+		baseline = energy - groupWork(a) - rigidWork(a) - loads;
+		begun    = true;
+		compared = step;
+	}
+	const Real excess  = energy - groupWork(a) - rigidWork(a) - loads - baseline;
+	const Real scale   = std::abs(baseline) + turnover + std::abs(loads) + roundingEnergy;
+	const bool compare = step - compared >= leastInterval;
+	const bool grows   = compare && excess > tolerance * scale && lastExcess > tolerance * scale && excess > growth * lastExcess;
+	if (grows || swinging > swing * (std::max(energy, Real(0)) + scale)) {
+		return { false, fastestBlock(a), "energy grew without work, to " + shown(swinging) + " J where " + shown(energy - excess) + " J were put in" };
+	}
+	if (excess <= tolerance * scale) {
+		lastGood.step     = step;
+		lastGood.time     = time;
+		lastGood.position = a.position;
+		lastGood.velocity = a.velocity;
+		lastGood.points   = a.points;
+		lastGood.groups   = a.groups;
+		lastGood.rigid    = a.rigid;
+		if (!a.contacts.order.empty() || !lastGood.contacts.order.empty() || lastGood.segments.size() != a.segments.size())
+			lastGood.contacts = a.contacts, lastGood.segments = a.segments;
+	}
+	if (compare) lastExcess = excess, compared = step;
+	Verdict good;
+	if (!warned && overlaps.thickest().share() > OverlapWatch::told) {
+		warned       = true;
+		good.warning = described(overlaps.thickest()) + "; up to 10 % joints may count as thin, and if their mean is more the run is stopped" + cure;
+	}
+	if (!lossTold && overlaps.entries > 0) {
+		lossTold = true;
+		good.warning += (good.warning.empty() ? "" : "; ")
+			+ ("block " + std::to_string(overlaps.through[0]) + " " + entered + ": fragments get lost there" + cure);
+	}
+	return good;
+}
+
+long StabilityWatch::restore(BlockAssembly& a) const
+{
+	if (lastGood.step < 0) return -1;
+	a.position = lastGood.position;
+	a.velocity = lastGood.velocity;
+	a.points   = lastGood.points;
+	a.groups   = lastGood.groups;
+	a.rigid    = lastGood.rigid;
+	a.contacts = lastGood.contacts;
+	a.segments = lastGood.segments;
+	a.listSides();
+	return lastGood.step;
+}
+
+} // namespace blocks

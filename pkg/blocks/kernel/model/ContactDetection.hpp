@@ -1,0 +1,13 @@
+// yade-blocks, GPL-2.0-or-later
+#pragma once
+#include <blocks/kernel/model/BlockAssembly.hpp>
+
+/// Finds the joints of an undeformed specimen.
+namespace blocks {
+
+/// Overlaps of boundary edges of different blocks: edges that look at each other, parallel and apart by no more than `tolerance`
+/// times the shorter of the two. Every overlap longer than that becomes a Segment; their areas add up to the common surface.
+/// Blocks that penetrate each other by more than the tolerance are refused. Works in n log n.
+std::vector<Segment> detectSegments(const BlockAssembly&, Real tolerance = 1e-6);
+
+} // namespace blocks

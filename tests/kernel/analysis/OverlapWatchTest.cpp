@@ -1,0 +1,210 @@
+// yade-blocks, GPL-2.0-or-later
+#include <Specimens.hpp>
+#include <blocks/kernel/analysis/StabilityWatch.hpp>
+
+using namespace specimens;
+
+namespace {
+
+/// Two unequally meshed rectangles, 0.6 x 0.2 m below 0.6 x 0.4 m; zones behind the joint are 0.1 and 0.08 m high.
+BlockAssembly twoMeshes()
+{
+	BlockAssembly a;
+	a.addMaterial(stone());
+	addGrid(a, { 0, 0 }, 0.6, 0.2, 3, 2);
+	addGrid(a, { 0, 0.2 }, 0.6, 0.4, 2, 5);
+	bondAll(a, elasticJoint(100e9, 40e9));
+	return a;
+}
+
+/// A square of 1 m that was never bonded, `depth` deep in another one, with the contact's forces.
+struct Pressed {
+	BlockAssembly a;
+	Pressed()
+	{
+		a.addMaterial(stone());
+		addGrid(a, { 0, 0 }, 1, 1, 2, 2);
+		addGrid(a, { 0.1, 1 }, 1, 1, 2, 2);
+		requestContact(a, 0, 1);
+		prepareContacts(a);
+		JointParams joint = elasticJoint(1e9, 5e8);
+		joint.cohesion = joint.tension = 0;
+		setContactJoint(a, 0, joint);
+	}
+	void put(Real depth)
+	{
+		for (int n = a.firstNode[1]; n < a.firstNode[2]; ++n)
+			a.position[n] = a.reference[n] - Vec2(0, depth);
+		prepareContacts(a);
+		advanceContacts(a, 1e-9);
+		computeJointForces(a);
+		gatherForces(a);
+	}
+};
+
+} // namespace
+
+TEST(OverlapWatch, ComparesJointsWithTheLowerZone)
+{
+	BlockAssembly a = twoMeshes();
+	OverlapWatch  watch;
+	watch.look(a);
+	EXPECT_EQ(watch.joint.share(), 0);
+
+	a.points[2].opening = -0.012, a.points[3].opening = 0.5; // an open end does not count
+	watch.look(a);
+	EXPECT_EQ(watch.joint.block, (std::array<int, 2> { 0, 1 }));
+	EXPECT_NEAR(watch.joint.height, 0.08, 100 * eps);
+	EXPECT_NEAR(watch.joint.share(), 0.15, 1000 * eps);
+	EXPECT_NEAR(watch.mean, 0.15, 1000 * eps); // of what is closed
+	BlockAssembly b     = a;
+	b.points[0].opening = b.points[1].opening = -0.004;
+	watch.look(b);
+	EXPECT_NEAR(watch.mean, (0.15 * b.segments[1].area + 0.05 * b.segments[0].area) / (b.segments[0].area + b.segments[1].area), 1000 * eps);
+	watch.look(a);
+	EXPECT_EQ(&watch.thickest(), &watch.joint);
+
+	a.segments[1].area = 0; // released: its points carry nothing, what they say is not looked at
+	watch.look(a);
+	EXPECT_EQ(watch.joint.share(), 0);
+}
+
+TEST(OverlapWatch, EveryJointHasZonesBehind)
+{
+	for (BlockAssembly a : { voronoi(1, 0.6, 4, 2, stone(), elasticJoint(1, 1), 0.5),
+	                         column(2, 0.4, 0.004, 2, 1, stone(), elasticJoint(1, 1)),
+	                         twoBlocks(elasticJoint(1, 1)) })
+		for (size_t i = 0; i < a.points.size(); ++i) {
+			BlockAssembly b     = a;
+			b.points[i].opening = -1;
+			OverlapWatch watch;
+			watch.look(b);
+			EXPECT_GT(watch.joint.height, 0);
+			EXPECT_LT(watch.joint.height, 1); // no block is higher
+			EXPECT_EQ(watch.joint.block, b.segments[i / 2].block);
+		}
+}
+
+TEST(OverlapWatch, FollowsAFreeContactThroughTheBlock)
+{
+	// Squares of 1 m; zones 0.5 m high; the innermost point is the grid point in the middle.
+	Pressed      p;
+	OverlapWatch watch;
+	for (Real depth = 0; depth < 1.6; depth += 0.05) {
+		p.put(depth);
+		watch.look(p.a);
+		if (depth < 0.24) { // the depth at which the contact is lost, area by outline
+			EXPECT_NEAR(watch.contact.share(), depth / 0.5, 1e-9);
+			EXPECT_EQ(&watch.thickest(), depth > 0 ? &watch.contact : &watch.thickest());
+		}
+		const bool inside = depth > 0.5 + 1e-9 && depth < 1.5 - 1e-9;
+		if (std::abs(depth - 0.5) > 0.01 && std::abs(depth - 1.5) > 0.01) {
+			EXPECT_EQ(watch.through[0] >= 0, inside) << depth;
+		}
+	}
+}
+
+TEST(OverlapWatch, ABlockInAHoleOrANotchIsNotWithinTheOther)
+{
+	// A frame of 3 m with a hole of 1 m and a square in the hole: the frame's centroid lies within the square, its innermost point does not.
+	BlockAssembly a;
+	a.addMaterial(stone());
+	const Ring        outer { { 0, 0 }, { 3, 0 }, { 3, 3 }, { 0, 3 } }, inner { { 1, 1 }, { 1, 2 }, { 2, 2 }, { 2, 1 } };
+	std::vector<Vec2> points(outer);
+	points.insert(points.end(), inner.begin(), inner.end());
+	const std::vector<std::array<int, 3>> zones { { 0, 1, 7 }, { 0, 7, 4 }, { 1, 2, 6 }, { 1, 6, 7 }, { 2, 3, 5 }, { 2, 5, 6 }, { 3, 0, 4 }, { 3, 4, 5 } };
+	a.addBlock(points, { { 0, 1, 2, 3 }, { 4, 5, 6, 7 } }, zones, 0);
+	addGrid(a, { 1, 1 }, 1, 1, 2, 2);
+	requestContact(a, 0, 1);
+	prepareContacts(a);
+	setContactJoint(a, 0, elasticJoint(1e9, 5e8));
+	advanceContacts(a, 1e-9);
+	OverlapWatch watch;
+	watch.look(a);
+	EXPECT_EQ(watch.through[0], -1);
+	for (int n = a.firstNode[1]; n < a.firstNode[2]; ++n) // now into the frame
+		a.position[n] += Vec2(-0.6, 0);
+	watch.look(a);
+	EXPECT_EQ(watch.through, (std::array<int, 2> { 1, 0 }));
+}
+
+TEST(OverlapWatch, SeesAZoneThatHasTurnedInsideOut)
+{
+	BlockAssembly a = twoMeshes();
+	OverlapWatch  watch;
+	watch.look(a);
+	EXPECT_EQ(watch.inverted, -1);
+	rotateAbout(a, { 0.3, 0.2 }, 2, { 1, 0 }); // turning is none of that
+	watch.look(a);
+	EXPECT_EQ(watch.inverted, -1);
+	std::swap(a.position[a.firstNode[1]], a.position[a.firstNode[1] + 1]);
+	watch.look(a);
+	EXPECT_EQ(watch.inverted, 1);
+}
+
+TEST(StabilityWatch, WarnsOnceOfThickJointsAndStopsWhereTheirMeanIsTooThick)
+{
+	BlockAssembly  a = twoMeshes();
+	StabilityWatch watch;
+	auto           pressed = [&](Real overlap, long step) {
+                for (int n = a.firstNode[1]; n < a.firstNode[2]; ++n)
+                        a.position[n] = a.reference[n] - Vec2(0, overlap);
+                computeForces(a);
+                return watch.look(a, step, step * 1e-3, 1e-3);
+	};
+	EXPECT_EQ(pressed(0.0035, 0).warning, "");
+	a.groups.push_back(driven("press", { 2 * a.firstNode[1] }, 0));
+	a.groups[0].work = a.groups[0].workTurnover = 1e30; // whoever presses does the work
+	const auto first = pressed(0.006, 100), second = pressed(0.0075, 200), gone = pressed(0.009, 300);
+	EXPECT_TRUE(first.stable && second.stable);
+	EXPECT_NE(first.warning.find("blocks 0 and 1 overlap by 0.006"), std::string::npos) << first.warning;
+	EXPECT_NE(first.warning.find("8 % of the height of the zones behind (0.08 m)"), std::string::npos) << first.warning;
+	EXPECT_EQ(second.warning, "");
+	EXPECT_FALSE(gone.stable);
+	EXPECT_EQ(gone.block, 0);
+	EXPECT_NE(gone.reason.find("joints overlap by 11 % of the height of the zones behind in the mean"), std::string::npos) << gone.reason;
+	EXPECT_EQ(watch.restore(a), 200);
+}
+
+TEST(StabilityWatch, StopsABondedBlockThatEntersAnother)
+{
+	// One joint in 21 has given way, so that their mean is thin: the innermost point of the lower block of the two is in the higher one.
+	for (bool flipped : { false, true }) {
+		BlockAssembly a;
+		a.addMaterial(stone());
+		const Real low = flipped ? 0.4 : 0.2, high = 0.6 - low;
+		addGrid(a, { 0, 0 }, 0.6, low, 3, flipped ? 5 : 2);
+		addGrid(a, { 0, low }, 0.6, high, 2, flipped ? 2 : 5);
+		for (int i = 1; i <= 20; ++i)
+			addGrid(a, { 2. * i, 0 }, 0.6, 0.2, 1, 1), addGrid(a, { 2. * i, 0.2 }, 0.6, 0.2, 1, 1);
+		bondAll(a, elasticJoint(100e9, 40e9));
+		for (int block = 1; block < a.blockCount(); block += 2)
+			for (int n = a.firstNode[block]; n < a.firstNode[block + 1]; ++n)
+				a.position[n].y() -= block == 1 ? 0.12 : 1e-4;
+		computeForces(a);
+		const auto gone = StabilityWatch().look(a, 0, 0, 1e-6);
+		EXPECT_FALSE(gone.stable);
+		EXPECT_EQ(gone.block, flipped);
+		EXPECT_NE(gone.reason.find(flipped ? "gone into block 0" : "gone into block 1"), std::string::npos) << gone.reason;
+	}
+}
+
+TEST(StabilityWatch, TellsOfLostFragmentsAndStopsWhereManyAre)
+{
+	// Two squares in each other: both innermost points are lost, 2 of 150 blocks or of 250.
+	for (int count : { 150, 250 }) {
+		Pressed p;
+		for (int i = 2; i < count; ++i)
+			addGrid(p.a, { 3. * i, 50 }, 1, 1, 1, 1);
+		p.put(0.8);
+		StabilityWatch watch;
+		const auto     verdict = watch.look(p.a, 0, 0, 1e-6);
+		EXPECT_EQ(verdict.stable, count == 250);
+		if (count == 150) {
+			EXPECT_NE(verdict.reason.find("more than half"), std::string::npos);
+		} else {
+			EXPECT_NE(verdict.warning.find("fragments"), std::string::npos);
+			EXPECT_EQ(watch.look(p.a, 100, 0, 1e-6).warning, ""); // once
+		}
+	}
+}

@@ -1,0 +1,337 @@
+// yade-blocks, GPL-2.0-or-later
+#include <Specimens.hpp>
+
+using namespace specimens;
+
+namespace {
+
+Real totalArea(const std::vector<Segment>& segments)
+{
+	Real sum = 0;
+	for (const Segment& g : segments)
+		sum += 2 * g.area;
+	return sum;
+}
+
+/// A point of an edge, as the segment's weights say.
+Vec2 host(const BlockAssembly& a, const Segment& g, int side, int k)
+{
+	const Real s = side == 0 ? g.s1[k] : g.s2[k];
+	return (1 - s) * a.position[g.node[2 * side]] + s * a.position[g.node[2 * side + 1]];
+}
+
+void expectHostsMeet(const BlockAssembly& a, const std::vector<Segment>& segments, Real tolerance)
+{
+	for (const Segment& g : segments)
+		for (int k : { 0, 1 })
+			EXPECT_LT((host(a, g, 0, k) - host(a, g, 1, k)).norm(), tolerance);
+}
+
+/// A stone in large deformation: every node somewhere else, both blocks turned, the joint open and sheared.
+void disturb(BlockAssembly& a, Real amount, unsigned seed = 3)
+{
+	std::mt19937                         random(seed);
+	std::uniform_real_distribution<Real> shift(-amount, amount);
+	for (Vec2& x : a.position) {
+		const Real dx = shift(random), dy = shift(random);
+		x += Vec2(dx, dy);
+	}
+}
+
+Real springEnergy(BlockAssembly& a)
+{
+	updateKinematics(a, 0, int(a.segments.size()));
+	Real sum = 0;
+	for (const Pair& pair : a.pairs)
+		for (int i = 2 * pair.first; i < 2 * pair.last; ++i) {
+			const JointParams& j = a.joints[&pair - a.pairs.data()];
+			sum += a.segments[i / 2].area * (j.kn * a.points[i].opening * a.points[i].opening + j.ks * a.points[i].slip * a.points[i].slip) / 2;
+		}
+	return sum;
+}
+
+/// Joint forces alone on every node.
+std::vector<Vec2> jointForces(BlockAssembly& a)
+{
+	computeForces(a);
+	std::vector<Vec2> force(a.nodeCount(), Vec2::Zero());
+	for (size_t i = 0; i < a.segments.size(); ++i)
+		for (int k = 0; k < 4; ++k)
+			force[a.segments[i].node[k]] += a.segmentForce[i][k];
+	return force;
+}
+
+BlockAssembly emptyAssembly(Real thickness)
+{
+	BlockAssembly a;
+	a.thickness = thickness;
+	a.addMaterial(stone());
+	return a;
+}
+
+} // namespace
+
+// ---- detection
+
+TEST(ContactDetection, ConformingEdge)
+{
+	BlockAssembly a = twoBlocks(elasticJoint(1, 1), 0.7);
+	ASSERT_EQ(a.segments.size(), 1u);
+	const Segment& g = a.segments[0];
+	EXPECT_EQ(g.block, (std::array<int, 2> { 0, 1 }));
+	EXPECT_EQ(g.node, (std::array<int, 4> { 1, 2, 9, 5 })); // (1,0) -> (1.3,0.8), and the same the other way on block 1
+	EXPECT_EQ(g.s1, (std::array<Real, 2> { 0, 1 }));
+	EXPECT_EQ(g.s2, (std::array<Real, 2> { 1, 0 }));
+	EXPECT_NEAR(2 * g.area, 0.7 * std::hypot(0.3, 0.8), 8 * eps); // some 8 roundings of a number below 1
+	ASSERT_EQ(a.pairs.size(), 1u);
+	EXPECT_EQ(a.pairs[0].first, 0);
+	EXPECT_EQ(a.pairs[0].last, 1);
+	EXPECT_EQ(a.sides, (std::vector<int> { 0, 1 }));
+}
+
+TEST(ContactDetection, AreasAddUpOnUnequalMeshes)
+{
+	// 3 edges against 7 along a skew line of length 2.5 from (0, 0) in the direction (3, 4)/5: 9 overlaps, 18 points, L t in all.
+	BlockAssembly a = emptyAssembly(0.35);
+	const Vec2    along(0.6, 0.8), across(0.8, -0.6);
+	auto          side = [&](int n, Real sign) {
+                Ring ring;
+                for (int i = 0; i <= n; ++i)
+                        ring.push_back(2.5 * (sign > 0 ? n - i : i) / n * along); // block 0 lies left of the line
+                ring.push_back(ring.back() + sign * 0.9 * across);
+                ring.push_back(ring.front() + sign * 0.9 * across);
+                return ring;
+	};
+	addFan(a, side(3, -1));
+	addFan(a, side(7, +1));
+	const auto found = detectSegments(a);
+	EXPECT_EQ(found.size(), 9u);
+	EXPECT_NEAR(totalArea(found), 2.5 * 0.35, 9 * 8 * eps); // 9 terms, 8 roundings each of numbers below 1
+	expectHostsMeet(a, found, 20 * eps * 2.5);
+}
+
+TEST(ContactDetection, PartlyOverlappingEdges)
+{
+	// A brick on two others in running bond, and one beside it: surfaces 0.7 + 0.6 below, 0.5 at the side.
+	BlockAssembly a = emptyAssembly(2);
+	addGrid(a, { 0, 0 }, 1, 0.5, 2, 1);
+	addGrid(a, { 1, 0 }, 1, 0.5, 3, 2);
+	addGrid(a, { 0.3, 0.5 }, 1.3, 0.4, 3, 1);
+	auto bond = [&](int i, int j) {
+		Real sum = 0;
+		for (const Segment& g : detectSegments(a))
+			if (g.block == std::array<int, 2> { i, j }) sum += 2 * g.area;
+		return sum;
+	};
+	// sums of at most 4 pieces with 8 roundings of numbers of order 2
+	EXPECT_NEAR(bond(0, 1), 0.5 * 2, 64 * eps);
+	EXPECT_NEAR(bond(0, 2), 0.7 * 2, 64 * eps);
+	EXPECT_NEAR(bond(1, 2), 0.6 * 2, 64 * eps);
+	expectHostsMeet(a, detectSegments(a), 20 * eps * 2);
+}
+
+TEST(ContactDetection, SurfaceOfATessellation)
+{
+	// Every edge of every cell is either the outline's or a joint: joints = (sum of perimeters - outline) / 2.
+	BlockAssembly a          = voronoi(1.7, 0.9, 6, 4, stone(), elasticJoint(1, 1), 0.4);
+	Real          perimeters = 0;
+	for (const auto& e : a.edgeNodes)
+		perimeters += (a.position[e[1]] - a.position[e[0]]).norm();
+	const auto found = detectSegments(a);
+	// some 60 joints of length below 0.4, each with 8 roundings, and as many in the sum of perimeters
+	EXPECT_NEAR(totalArea(found), (perimeters - 2 * (1.7 + 0.9)) / 2 * 0.4, 1000 * eps);
+	for (size_t i = 0; i + 1 < found.size(); ++i)
+		EXPECT_LE(found[i].block, found[i + 1].block) << "segments must come sorted by pair";
+}
+
+TEST(ContactDetection, WhatDoesNotTouchIsNoJoint)
+{
+	BlockAssembly a = emptyAssembly(1);
+	addGrid(a, { 0, 0 }, 1, 1, 1, 1);
+	addGrid(a, { 1, 1 }, 1, 1, 1, 1);        // corner to corner
+	addGrid(a, { 0, 1.0001 }, 0.9, 1, 1, 1); // a gap of 1e-4 of the shorter edge, wider than the default 1e-6
+	EXPECT_TRUE(detectSegments(a).empty());
+	const auto wide = detectSegments(a, 1e-3); // but not than this
+	ASSERT_EQ(wide.size(), 1u);
+	EXPECT_EQ(wide[0].block, (std::array<int, 2> { 0, 2 }));
+	EXPECT_NEAR(2 * wide[0].area, 0.9, 8 * eps);
+}
+
+TEST(ContactDetection, OrderOfBlocksOnlyChangesTheSides)
+{
+	BlockAssembly a = emptyAssembly(1), b = emptyAssembly(1);
+	const Ring    left { { 0, 0 }, { 1, 0 }, { 1.2, 0.7 }, { 0, 1 } }, right { { 1, 0 }, { 2, 0.1 }, { 1.2, 0.7 } };
+	addFan(a, left), addFan(a, right);
+	addFan(b, right), addFan(b, left);
+	bondAll(a, elasticJoint(5, 3));
+	bondAll(b, elasticJoint(5, 3));
+	ASSERT_EQ(b.segments.size(), 1u);
+	EXPECT_EQ(b.segments[0].area, a.segments[0].area);
+	// The same displacements, node by node: the same opening and slip at the same place. Terms of order 1, some 20 roundings.
+	disturb(a, 0.1);
+	for (int n = 0; n < 5; ++n)
+		b.position[4 + n] = a.position[n];
+	for (int n = 0; n < 4; ++n)
+		b.position[n] = a.position[5 + n];
+	computeForces(a);
+	computeForces(b);
+	for (int k : { 0, 1 }) { // points run along the first block's edge, so the other way round here
+		EXPECT_NEAR(b.points[1 - k].opening, a.points[k].opening, 20 * eps);
+		EXPECT_NEAR(b.points[1 - k].slip, a.points[k].slip, 20 * eps);
+	}
+	const auto fa = jointForces(a), fb = jointForces(b);
+	for (int n = 0; n < 5; ++n)
+		EXPECT_LT((fa[n] - fb[4 + n]).norm(), 100 * eps); // stiffness 5, openings 0.2, area 0.36
+}
+
+TEST(ContactDetection, Refusals)
+{
+	BlockAssembly a = twoBlocks(elasticJoint(1, 1));
+	expectRefusal([&] { detectSegments(a, 0); }, { "detectSegments: tolerance", "(0, 0.1)", "got 0" });
+	expectRefusal([&] { detectSegments(a, 0.25); }, { "detectSegments: tolerance", "(0, 0.1)", "got 0.25" });
+	expectRefusal([&] { detectSegments(a, std::nan("")); }, { "detectSegments: tolerance", "nan" });
+}
+
+TEST(ContactDetection, RefusesBlocksThatPenetrate)
+{
+	BlockAssembly a = emptyAssembly(1);
+	addGrid(a, { 0, 0 }, 1, 1, 1, 1);
+	addGrid(a, { 0.9, 0.2 }, 1, 0.5, 1, 1);
+	expectRefusal([&] { detectSegments(a); }, { "blocks 0 and 1 overlap", "must not overlap" });
+
+	BlockAssembly same = emptyAssembly(1); // no edges cross, but they run the same way
+	addGrid(same, { 0, 0 }, 1, 1, 2, 1);
+	addGrid(same, { 0, 0 }, 1, 1, 1, 1);
+	expectRefusal([&] { detectSegments(same); }, { "blocks 0 and 1 overlap" });
+}
+
+// ---- kinematics
+
+TEST(ContactKinematics, OpeningAndSlipInPlainNumbers)
+{
+	// Lower block's top edge y = 0.5 faces up: n = (0, 1), and t, n turned by +90 degrees, = (-1, 0). The upper block moves by
+	// (0.02, 0.03): opening 0.03, slip -0.02 at both points. Positions of order 1, a handful of roundings.
+	BlockAssembly a = column(2, 0.8, 0.5, 1, 1, stone(), elasticJoint(100, 40), 2);
+	rotateAbout(a, { 0, 0 }, 0, { 0.02, 0.03 }, a.firstNode[1]);
+	computeForces(a);
+	for (const ContactPoint& p : a.points) {
+		EXPECT_NEAR(p.opening, 0.03, 10 * eps);
+		EXPECT_NEAR(p.slip, -0.02, 10 * eps);
+		EXPECT_NEAR(p.sigma, 3, 1000 * eps);
+		EXPECT_NEAR(p.tau, -0.8, 400 * eps);
+	}
+	// On the lower block: A (sigma n + tau t) = 1.6 (3 (0,1) - 0.8 (-1,0)) = (1.28, 4.8), pulled after the upper one.
+	const auto f   = jointForces(a);
+	Vec2       sum = Vec2::Zero();
+	for (int n = 0; n < a.firstNode[1]; ++n)
+		sum += f[n];
+	EXPECT_NEAR(sum.x(), 1.28, 1600 * eps);
+	EXPECT_NEAR(sum.y(), 4.8, 1600 * eps);
+	// The two forces, (0.02, 0.03) apart, turn the pair by -(0.02 x 4.8 - 0.03 x 1.28) = -0.0576; the couples on the two edges
+	// make up for it, half each: right node +0.0288/0.8, left node as much less.
+	EXPECT_NEAR(f[3].y() - f[2].y(), 0.0576 / 0.8, 4000 * eps);
+}
+
+TEST(ContactKinematics, ForcesAreTheGradientOfTheSprings)
+{
+	// Large openings, slips and rotations, three blocks, joints of unequal meshes. Central differences with d = 1e-6: truncation
+	// d^2/6 U''' ~ 1e-12/6 x (k/L ~ 1e3) = 2e-10, rounding eps U/d = 2e-16 x 20/1e-6 = 4e-9. Allowed is three times their sum.
+	BlockAssembly a = emptyAssembly(0.9);
+	addGrid(a, { 0, 0 }, 1, 0.5, 2, 1);
+	addGrid(a, { 0.3, 0.5 }, 1.3, 0.4, 3, 1);
+	addGrid(a, { 1, -0.1 }, 1, 0.6, 1, 2);
+	bondAll(a, elasticJoint(70, 30));
+	for (ContactPoint& p : a.points) // as if bonded across a wide, skew gap
+		p.bondOpening = 0.03, p.bondSlip = -0.05;
+	disturb(a, 0.12);
+	rotateAbout(a, { 1, 1 }, 0.8, { 0.05, -0.1 }, a.firstNode[1], a.firstNode[2]);
+	rotateAbout(a, { 1, 1 }, 0.6, { 0, 0 });
+	const auto f = jointForces(a);
+	const Real d = 1e-6;
+	for (int n = 0; n < a.nodeCount(); ++n)
+		for (int axis : { 0, 1 }) {
+			const Real at       = a.position[n][axis];
+			a.position[n][axis] = at + d;
+			const Real ahead    = springEnergy(a);
+			a.position[n][axis] = at - d;
+			const Real behind   = springEnergy(a);
+			a.position[n][axis] = at;
+			EXPECT_NEAR(f[n][axis], -(ahead - behind) / (2 * d), 1.3e-8) << "node " << n << " axis " << axis;
+		}
+}
+
+TEST(ContactKinematics, ForceAndMomentVanishHoweverFarApart)
+{
+	// Any stresses, openings of twice the block's size, any rotation: rounding only. 40 nodes' forces of order k A d < 200,
+	// arms below 5, some 20 roundings each: 40 x 200 x 5 x 20 eps = 2e-10; relative to the largest force (100) well below 1e-10.
+	for (Real angle : { 0.1, 1.0, 2.5, 3.0 }) {
+		SCOPED_TRACE(angle);
+		BlockAssembly a = emptyAssembly(0.9);
+		addGrid(a, { 0, 0 }, 1, 0.5, 2, 1);
+		addGrid(a, { 0.3, 0.5 }, 1.3, 0.4, 3, 1);
+		bondAll(a, elasticJoint(70, 30));
+		for (ContactPoint& p : a.points)
+			p.bondOpening = 0.03, p.bondSlip = -0.05;
+		disturb(a, 0.1);
+		rotateAbout(a, { 0.5, 0.5 }, angle, { 1.1, 2.0 }, a.firstNode[1]);
+		const auto f      = jointForces(a);
+		Vec2       force  = Vec2::Zero();
+		Real       moment = 0, largest = 0;
+		for (int n = 0; n < a.nodeCount(); ++n) {
+			force += f[n];
+			moment += cross(a.position[n], f[n]);
+			largest = std::max(largest, f[n].norm());
+		}
+		EXPECT_GT(largest, 1);
+		EXPECT_LT(force.norm(), 1e-10);
+		EXPECT_LT(std::abs(moment), 1e-10 * largest);
+	}
+}
+
+TEST(ContactKinematics, RigidMotionOpensNothing)
+{
+	// The pair moves far away and turns by any angle. Positions of order 10: 10 roundings of 10 eps.
+	for (Real angle : { 0.01, 1.3, 3.0, -2.0, 40 * M_PI + 0.7 }) {
+		SCOPED_TRACE(angle);
+		BlockAssembly a = twoBlocks(elasticJoint(1, 1));
+		rotateAbout(a, { 0.3, -2 }, angle, { 5, -3 });
+		updateKinematics(a, 0, 1);
+		for (const ContactPoint& p : a.points) {
+			EXPECT_NEAR(p.opening, 0, 100 * eps);
+			EXPECT_NEAR(p.slip, 0, 100 * eps);
+		}
+	}
+}
+
+TEST(ContactKinematics, BondedAcrossAGapTheGapIsNoOpening)
+{
+	// A tolerance of 1e-3 bonds blocks that are 4e-4 apart and askew; unstressed, whatever the pair's rigid motion.
+	BlockAssembly a = emptyAssembly(1);
+	addFan(a, { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 0.9 } });
+	addFan(a, { { 1.0004, 0.1 }, { 2, 0 }, { 2, 1 }, { 1.0002, 0.8 } });
+	a.bond(detectSegments(a, 1e-3));
+	ASSERT_EQ(a.segments.size(), 1u);
+	EXPECT_NEAR(a.points[0].bondOpening, 4e-4, 1e-4 * 0.5); // they are not parallel: the normal bisects
+	rotateAbout(a, { 0.3, -2 }, 1.9, { 5, -3 });
+	updateKinematics(a, 0, 1);
+	for (const ContactPoint& p : a.points) {
+		EXPECT_NEAR(p.opening, 0, 100 * eps);
+		EXPECT_NEAR(p.slip, 0, 100 * eps);
+	}
+}
+
+TEST(ContactKinematics, FrameBisectsTheEdges)
+{
+	// Block 1 turns by 0.4 about the joint's middle: the frame turns by 0.2. At the ends the edges are 2 (L/2) sin(0.2) apart
+	// along the bisecting normal: opening +-L sin(0.2); slip 0.
+	BlockAssembly a = column(2, 0.8, 0.5, 1, 1, stone(), elasticJoint(1, 1));
+	rotateAbout(a, { 0.4, 0.5 }, 0.4, { 0, 0 }, a.firstNode[1]);
+	updateKinematics(a, 0, 1);
+	EXPECT_NEAR(a.frames[0].nx, -std::sin(0.2), 10 * eps);
+	EXPECT_NEAR(a.frames[0].ny, std::cos(0.2), 10 * eps);
+	for (int k : { 0, 1 }) {
+		const Real arm = (host(a, a.segments[0], 0, k).x() - 0.4);
+		EXPECT_NEAR(a.points[k].opening, 2 * arm * std::sin(0.2), 10 * eps);
+		EXPECT_NEAR(a.points[k].slip, 0, 10 * eps);
+	}
+}

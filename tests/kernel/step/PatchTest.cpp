@@ -1,0 +1,463 @@
+// yade-blocks, GPL-2.0-or-later
+#include <Specimens.hpp>
+
+using namespace specimens;
+
+namespace {
+
+using Matrix = Eigen::Matrix<Real, 2, 2>;
+
+constexpr Real width = 1.0, height = 0.8, thickness = 0.5;
+
+Real shortestEdge(const BlockAssembly& a)
+{
+	Real least = 1e300;
+	for (const auto& e : a.edgeNodes)
+		least = std::min(least, (a.reference[e[1]] - a.reference[e[0]]).norm());
+	return least;
+}
+
+void addTractions(BlockAssembly& a, const Matrix& P)
+{
+	forEachOuterEdge(a, width, height, [&](int edge, const Vec2& normal) { addTraction(a, edge, P * normal); });
+}
+
+/// Joint stiffnesses kappa / (distance of the two cells' seeds).
+void setStiffnesses(BlockAssembly& a, const std::vector<Vec2>& seeds, Real kappaN, Real kappaS)
+{
+	for (size_t pair = 0; pair < a.pairs.size(); ++pair) {
+		const auto& b  = a.pairs[pair].block;
+		const Real  d  = (seeds[b[1]] - seeds[b[0]]).norm();
+		a.joints[pair] = elasticJoint(kappaN / d, kappaS / d);
+	}
+}
+
+} // namespace
+
+// A uniform stress P puts the traction P n on every joint. A joint of kn = ks = kappa/d opens by the vector P n d/kappa. In a
+// Voronoi tessellation n = (s_j - s_i)/d with the cells' seeds s, d apart: the jump is P (s_j - s_i)/kappa, and cell i moved by
+// P s_i/kappa makes all jumps at once. So x = U X + P s_i/kappa is the exact answer of any Voronoi tessellation whatever its zones,
+// at any strain: cells' edges stay parallel, their areas are those of the reference, and kn = ks has no couple.
+TEST(Patch, UniformStressThroughAnyVoronoiTessellation)
+{
+	std::vector<Vec2> seeds;
+	BlockAssembly     a = voronoi(width, height, 5, 4, stone(), elasticJoint(1, 1), thickness, &seeds);
+	ASSERT_EQ(a.blockCount(), 20);
+	const Real kappa = 30e9;
+	setStiffnesses(a, seeds, kappa, kappa);
+
+	const Matrix     U      = (Matrix() << 1.02, 0.007, 0.007, 0.99).finished();
+	const Moduli     moduli = planeModuli(stone().young, stone().poisson, Plane::strain);
+	const ZoneStress s      = zoneStress(moduli, { 0.02, -0.01, 0.007, 1, 0 });
+	const Matrix     P      = (Matrix() << s.sxx, s.sxy, s.sxy, s.syy).finished();
+	addTractions(a, P);
+	for (int block = 0; block < a.blockCount(); ++block)
+		for (int n = a.firstNode[block]; n < a.firstNode[block + 1]; ++n)
+			a.position[n] = U * a.reference[n] + P * seeds[block] / kappa;
+	computeForces(a);
+	// Strains come from differences of positions of order 1 over the shortest edge: 20 roundings; times E' and an edge x thickness.
+	const Real rounding = 20 * eps / shortestEdge(a) * (moduli.lambda + 2 * moduli.mu) * 0.3 * thickness;
+	EXPECT_LT(rounding, 1e-6 * P.norm() * thickness * 0.2) << "of the forces in play";
+	EXPECT_LT(largestForce(a), rounding);
+}
+
+TEST(Patch, DynamicRelaxationFindsIt)
+{
+	std::vector<Vec2> seeds;
+	BlockAssembly     a     = voronoi(width, height, 4, 3, stone(), elasticJoint(1, 1), thickness, &seeds, 11);
+	const Real        kappa = 30e9;
+	setStiffnesses(a, seeds, kappa, kappa);
+	const Moduli     moduli = planeModuli(stone().young, stone().poisson, Plane::strain);
+	const Matrix     U      = (Matrix() << 1 + 3e-4, 1e-4, 1e-4, 1 + 2e-4).finished(); // stretched both ways: dead loads then hold it
+	const ZoneStress s      = zoneStress(moduli, { 3e-4, 2e-4, 1e-4, 1, 0 });
+	const Matrix     P      = (Matrix() << s.sxx, s.sxy, s.sxy, s.syy).finished();
+	addTractions(a, P);
+	std::vector<Vec2> exact;
+	for (int n = 0; n < a.nodeCount(); ++n)
+		exact.push_back(U * a.reference[n] + P * seeds[a.blockOfNode(n)] / kappa);
+
+	// Three degrees of freedom are held where they belong, so that nothing moves as a whole; they take no force.
+	std::vector<int> held = dofs(a, 1, [](const Vec2& x) { return x.norm() < 1e-9 || (x - Vec2(width, 0)).norm() < 1e-9; });
+	held.push_back(dofs(a, 0, [](const Vec2& x) { return x.norm() < 1e-9; }).front());
+	ASSERT_EQ(held.size(), 3u);
+	for (int dof : held)
+		a.position[dof / 2][dof % 2] = exact[dof / 2][dof % 2];
+	a.addGroup(driven("held", held, 0));
+	scaleInertia(a, nodalStiffness(a), 1, 0.7);
+	Damping damping;
+	damping.alpha   = 0.7;
+	const int steps = relax(a, damping, 1, 1e-9, 20000);
+	ASSERT_GT(steps, 0) << "did not settle";
+	// What is unbalanced by 1e-9 of the contact forces is wrong by that times the number of nodes across squared (100), by and large.
+	// Displacements are of order 1e-3.
+	for (int n = 0; n < a.nodeCount(); ++n)
+		EXPECT_LT((a.position[n] - exact[n]).norm(), 1e-10) << "node " << n;
+	for (int z = 0; z < a.zoneCount(); ++z) {
+		const ZoneStress t = stressOfZone(a, z);
+		EXPECT_NEAR(t.sxx, s.sxx, s.sxx * 1e-6) << "zone " << z;
+		EXPECT_NEAR(t.syy, s.syy, s.sxx * 1e-6) << "zone " << z;
+		EXPECT_NEAR(t.sxy, s.sxy, s.sxx * 1e-6) << "zone " << z;
+	}
+	for (size_t i = 0; i < a.points.size(); ++i) { // Joints' stresses are the components of P n0 in the present frame; n0, the normal
+		const Vec2 d = seeds[a.segments[i / 2].block[1]] - seeds[a.segments[i / 2].block[0]], n0 = d.normalized(); // at the start
+		const Vec2 n(a.frames[i / 2].nx, a.frames[i / 2].ny), t(-n.y(), n.x());
+		EXPECT_NEAR(a.points[i].sigma, n.dot(P * n0), s.sxx * 1e-6);
+		EXPECT_NEAR(a.points[i].tau, t.dot(P * n0), s.sxx * 1e-6);
+	}
+}
+
+// Under a hydrostatic stress there is no shear on any joint, so that ks is free.
+TEST(Patch, HydrostaticStressWhateverTheShearStiffness)
+{
+	std::vector<Vec2> seeds;
+	BlockAssembly     a     = voronoi(width, height, 5, 4, stone(), elasticJoint(1, 1), thickness, &seeds, 5);
+	const Real        kappa = 30e9, e = -0.013;
+	setStiffnesses(a, seeds, kappa, 0.37 * kappa);
+	const Moduli moduli = planeModuli(stone().young, stone().poisson, Plane::strain);
+	const Real   p      = 2 * (moduli.lambda + moduli.mu) * e;
+	addTractions(a, p * Matrix::Identity());
+	for (int block = 0; block < a.blockCount(); ++block)
+		for (int n = a.firstNode[block]; n < a.firstNode[block + 1]; ++n)
+			a.position[n] = (1 + e) * a.reference[n] + p / kappa * seeds[block];
+	computeForces(a);
+	EXPECT_LT(largestForce(a), 20 * eps / shortestEdge(a) * (moduli.lambda + 2 * moduli.mu) * 0.3 * thickness);
+}
+
+// Joints of one stiffness everywhere disturb the uniform stress by an amount that goes as 1/k: ten times stiffer, a tenth of it,
+// to first order in E/(k s) = 0.01 (s the cell size).
+TEST(Patch, StiffJointsApproachTheContinuum)
+{
+	const Matrix P           = (Matrix() << 3e4, 1e4, 1e4, -2e4).finished(); // small, so that nothing but 1/k matters
+	auto         disturbance = [&](Real k) {
+                BlockAssembly a = voronoi(width, height, 4, 3, stone(), elasticJoint(k, k / 2), thickness, nullptr, 11);
+                addTractions(a, P);
+                solveStatics(a, 1e-6, true);
+                Real worst = 0;
+                for (int z = 0; z < a.zoneCount(); ++z) {
+                        const ZoneStress s = stressOfZone(a, z);
+                        worst              = std::max({ worst, std::abs(s.sxx - P(0, 0)), std::abs(s.syy - P(1, 1)), std::abs(s.sxy - P(0, 1)) });
+                }
+                return worst / 3e4;
+	};
+	const Real k = 20e9 / 0.25 / 0.01, soft = disturbance(k), stiff = disturbance(10 * k);
+	EXPECT_LT(soft, 0.1); // 10 E/(k s): the zones at short edges take most
+	EXPECT_NEAR(soft / stiff, 10, 10 * 5 * 0.01 + 0.1);
+}
+
+// ---- springs in series
+
+TEST(Patch, ColumnIsSpringsInSeries)
+{
+	// Laterally held, plane strain: E' = E(1-nu)/((1+nu)(1-2nu)); free with nu = 0, plane stress: E' = E.
+	// Pushed by a platen: displacement = F/(w t) (n h/E' + (n-1)/kn), exact: strains are linear in U - 1 and areas the reference's.
+	for (const bool held : { true, false }) {
+		SCOPED_TRACE(held ? "held" : "free");
+		const Material m { 20e9, held ? 0.2 : 0.0, 2000 };
+		const int      n  = 4;
+		const Real     kn = 150e9, F = -3e5, w = 0.3, h = 0.2;
+		BlockAssembly  a   = column(n, w, h, 2, 1, m, elasticJoint(kn, 0.4 * kn), thickness);
+		a.plane            = held ? Plane::strain : Plane::stress;
+		const Real modulus = held ? 20e9 * 0.8 / (1.2 * 0.6) : 20e9;
+		if (held)
+			a.addGroup(driven("sides", dofs(a, 0, [](const Vec2&) { return true; }), 0));
+		else
+			a.addGroup(driven("corner", { 0 }, 0));
+		a.addGroup(driven("foot", dofs(a, 1, [](const Vec2& x) { return x.y() == 0; }), 0));
+		const int top = a.addGroup(pushed("platen", dofs(a, 1, [&](const Vec2& x) { return x.y() > n * h - 1e-6; }), F));
+		scaleInertia(a, nodalStiffness(a), 1, 0.7);
+		Damping damping;
+		damping.alpha = 0.7;
+		ASSERT_GT(relax(a, damping, 1, 1e-11, 50000), 0) << "did not settle";
+		const Real expected = F / (w * thickness) * (n * h / modulus + (n - 1) / kn);
+		// unbalanced 1e-11 of contact forces, amplified by (nodes in the column)^2 = 64 at worst; positions of order 1 round by eps
+		EXPECT_NEAR(a.groups[top].travelled, expected, std::abs(expected) * 1e-9 + 50 * eps);
+		for (const ContactPoint& p : a.points)
+			EXPECT_NEAR(p.sigma, F / (w * thickness), 2e6 * 1e-8);
+
+		// reactions: the unbalanced force of the foot's degrees of freedom is what the support takes
+		Real reaction = 0;
+		for (int dof : a.groups[1].dofs)
+			reaction += a.force[dof / 2][dof % 2];
+		EXPECT_NEAR(reaction, F, 3e5 * 1e-8);
+	}
+}
+
+// ---- the assembly
+
+TEST(BlockAssembly, MassesRangesCentroid)
+{
+	BlockAssembly a;
+	a.thickness = 0.5;
+	a.addMaterial(stone());
+	a.addMaterial({ 1e9, 0.3, 1250 });
+	addGrid(a, { 0, 0 }, 0.4, 0.3, 2, 3);
+	addGrid(a, { 0.4, 0 }, 0.7, 0.3, 1, 2, 1);
+	const int rigid   = a.addBlock({ { 0, -1 }, { 1, -1 }, { 1, 0 }, { 0, 0 } }, { { 0, 1, 2, 3 } }, {}, 0);
+	Real      mass[3] = { 0, 0, 0 };
+	for (int n = 0; n < a.nodeCount(); ++n)
+		mass[a.blockOfNode(n)] += a.mass[n];
+	EXPECT_NEAR(mass[0], 2000 * 0.4 * 0.3 * 0.5, 1e-12 * 120); // 12 zones x a few roundings each: 100 eps < 1e-12
+	EXPECT_NEAR(mass[1], 1250 * 0.7 * 0.3 * 0.5, 1e-12 * 120);
+	EXPECT_EQ(mass[rigid], 0);
+	EXPECT_EQ(a.mobility[a.firstNode[rigid]], Vec2::Zero());
+	EXPECT_EQ(a.firstZone, (std::vector<int> { 0, 12, 16, 16 }));
+	EXPECT_EQ(a.firstEdge, (std::vector<int> { 0, 10, 16, 20 }));
+	EXPECT_NEAR((a.centroid(rigid) - Vec2(0.5, -0.5)).norm(), 0, 4 * eps);
+
+	// a triangle's mass is lumped in thirds, so the centroid is the triangle's
+	BlockAssembly one;
+	one.addMaterial(stone());
+	one.addBlock({ { 10, 2 }, { 11, 2.5 }, { 10.3, 4 } }, { { 0, 1, 2 } }, { { 0, 1, 2 } }, 0);
+	EXPECT_NEAR((one.centroid(0) - Vec2(31.3, 8.5) / 3).norm(), 0, 40 * eps);
+	EXPECT_EQ(one.firstBadNode(), -1);
+	one.velocity[1].y() = std::nan("");
+	EXPECT_EQ(one.firstBadNode(), 1);
+}
+
+TEST(BlockAssembly, GravityAndTractionsAddUp)
+{
+	BlockAssembly a = twoBlocks(elasticJoint(1e9, 1e9), 0.7);
+	addGravity(a, { 0.5, -9.81 });
+	addTraction(a, 1, { 3, 7 }); // nodes 1 and 2, of length sqrt(0.73)
+	addTraction(a, 1, { 0, 1 });
+	Real mass = 0;
+	for (Real m : a.mass)
+		mass += m;
+	computeForces(a);
+	const Real length = std::sqrt(0.73), rounding = 200 * eps * 2e4; // 20 terms, the weight is about 2e4 N
+	EXPECT_NEAR(totalForce(a).x(), 0.5 * mass + 3 * length * 0.7, rounding);
+	EXPECT_NEAR(totalForce(a).y(), -9.81 * mass + 8 * length * 0.7, rounding);
+	EXPECT_NEAR(a.load[1].x() - 0.5 * a.mass[1], 3 * length * 0.7 / 2, rounding); // half on each node
+	EXPECT_NEAR(a.load[2].y() + 9.81 * a.mass[2], 8 * length * 0.7 / 2, rounding);
+
+	// the joint and zones make no force of their own at rest: the undeformed specimen has only its loads
+	for (int n = 0; n < a.nodeCount(); ++n)
+		EXPECT_LT((a.force[n] - a.load[n]).norm(), 100 * eps * 20e9); // strains of 100 roundings times E
+}
+
+TEST(BlockAssembly, AllForcesAreTheGradientOfTheStoredEnergy)
+{
+	// Zones and joints together, gathered: what one node gets is minus the derivative of zoneEnergy + jointEnergy.
+	// Central differences d = 1e-6: truncation d^2/6 U''' ~ 1e-12/6 x 1e3, rounding eps U/d = 2e-16 x 10/1e-6 = 2e-9: times 5.
+	for (const Strain strain : { Strain::large, Strain::small }) {
+		BlockAssembly a;
+		a.thickness = 0.7;
+		a.strain    = strain;
+		a.addMaterial({ 20, 0.2, 1 });
+		a.addMaterial({ 50, 0.3, 1 });
+		addFan(a, { { 0, 0.1 }, { 1, 0 }, { 1.3, 0.8 }, { 0.2, 0.9 } });
+		addFan(a, { { 1, 0 }, { 2.1, -0.2 }, { 1.9, 0.4 }, { 1.8, 1.0 }, { 1.3, 0.8 } }, 1);
+		bondAll(a, elasticJoint(70, 30));
+		std::mt19937                         random(5);
+		std::uniform_real_distribution<Real> shift(-0.08, 0.08);
+		for (Vec2& x : a.position) {
+			const Real dx = shift(random), dy = shift(random);
+			x += Vec2(dx, dy);
+		}
+		computeForces(a);
+		const std::vector<Vec2> f = a.force;
+		const Real              d = 1e-6;
+		for (int n = 0; n < a.nodeCount(); ++n)
+			for (int axis : { 0, 1 }) {
+				const Real at       = a.position[n][axis];
+				a.position[n][axis] = at + d;
+				computeForces(a);
+				const Real ahead    = specimens::storedEnergy(a);
+				a.position[n][axis] = at - d;
+				computeForces(a);
+				const Real behind   = specimens::storedEnergy(a);
+				a.position[n][axis] = at;
+				EXPECT_NEAR(f[n][axis], -(ahead - behind) / (2 * d), 1e-8) << "node " << n << " axis " << axis;
+			}
+	}
+}
+
+TEST(BlockAssembly, GatheringAddsEveryZoneOfEveryMaterial)
+{
+	// More zones than the kernel takes at a time, two materials in turn: against one zone after the other. Terms of order
+	// 50 x 0.1 x 0.1, a dozen a node.
+	for (const Strain strain : { Strain::large, Strain::small }) {
+		BlockAssembly a;
+		a.strain    = strain;
+		a.thickness = 0.7;
+		a.addMaterial({ 20, 0.2, 1 });
+		a.addMaterial({ 50, 0.3, 1 });
+		addGrid(a, { 0, 0 }, 1, 1, 9, 9, 0);
+		addGrid(a, { 1, 0 }, 1, 1, 4, 4, 0);
+		addGrid(a, { 2, 0 }, 1, 1, 2, 1, 1);
+		addGrid(a, { 3, 0 }, 1, 1, 7, 5, 0);
+		std::mt19937                         random(5);
+		std::uniform_real_distribution<Real> shift(-0.02, 0.02);
+		for (Vec2& x : a.position) {
+			const Real dx = shift(random), dy = shift(random);
+			x += Vec2(dx, dy);
+		}
+		rotateAbout(a, { 1, 1 }, strain == Strain::large ? 1.1 : 0, { 0, 0 });
+		std::vector<Vec2> f(a.nodeCount(), Vec2::Zero());
+		for (int block = 0; block < a.blockCount(); ++block)
+			for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z) {
+				const Material& m    = a.materials[a.blockMaterial[block]];
+				const auto&     node = a.zoneNodes[z];
+				const Vec2      p = a.position[node[1]] - a.position[node[0]], q = a.position[node[2]] - a.position[node[0]];
+				const auto&     g = a.zoneGradient[z];
+				const auto      e = strain == Strain::large ? zoneStrain<Strain::large>(g, p.x(), p.y(), q.x(), q.y())
+									    : zoneStrain<Strain::small>(g, p.x(), p.y(), q.x(), q.y());
+				const auto      t = zoneStress(planeModuli(m.young, m.poisson, a.plane), e);
+				const auto      k = strain == Strain::large ? zoneForces<Strain::large>(g, a.zoneVolume[z], t, e)
+									    : zoneForces<Strain::small>(g, a.zoneVolume[z], t, e);
+				f[node[1]] += Vec2(k.f1x, k.f1y);
+				f[node[2]] += Vec2(k.f2x, k.f2y);
+				f[node[0]] -= Vec2(k.f1x + k.f2x, k.f1y + k.f2y);
+			}
+		for (int threads : { 1, 2 }) {
+			gatherForces(a, threads);
+			for (int n = 0; n < a.nodeCount(); ++n)
+				EXPECT_LT((a.force[n] - f[n]).norm(), 1000 * eps) << "node " << n;
+		}
+	}
+}
+
+TEST(BlockAssembly, CauchyStress)
+{
+	// F = R(0.6) U: sigma = R S U R^T / det U. Every entry unequal. E = 20: stresses of order 4, 30 roundings of strains.
+	BlockAssembly a;
+	a.thickness = 0.7;
+	a.addMaterial({ 20, 0.3, 1 });
+	addFan(a, { { 0, 0.1 }, { 1, 0 }, { 1.3, 0.8 }, { 0.2, 0.9 } });
+	addFan(a, { { 1, 0 }, { 2.1, -0.2 }, { 1.9, 0.4 }, { 1.3, 0.8 } });
+	const Matrix U = (Matrix() << 1.11, 0.07, 0.07, 0.94).finished();
+	const Matrix R = (Matrix() << std::cos(0.6), -std::sin(0.6), std::sin(0.6), std::cos(0.6)).finished();
+	for (int n = 0; n < a.nodeCount(); ++n)
+		a.position[n] = R * U * a.reference[n];
+	const ZoneStress s        = zoneStress(planeModuli(20, 0.3, Plane::strain), { 0.11, -0.06, 0.07, 1, 0 });
+	const Matrix     S        = (Matrix() << s.sxx, s.sxy, s.sxy, s.syy).finished();
+	const Matrix     expected = R * S * U * R.transpose() / U.determinant();
+	for (int block : { 0, 1 })
+		for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z) {
+			const ZoneStress t = cauchyStress(a, block, z);
+			EXPECT_NEAR(t.sxx, expected(0, 0), 1e-12);
+			EXPECT_NEAR(t.syy, expected(1, 1), 1e-12);
+			EXPECT_NEAR(t.sxy, expected(0, 1), 1e-12);
+		}
+	a.strain               = Strain::small; // no rotation is taken out: sigma of sym(F) - 1
+	const Matrix     F     = R * U;
+	const ZoneStress t     = cauchyStress(a, 1, a.firstZone[1]),
+			 small = zoneStress(planeModuli(20, 0.3, Plane::strain), { F(0, 0) - 1, F(1, 1) - 1, (F(0, 1) + F(1, 0)) / 2, 1, 0 });
+	EXPECT_NEAR(t.sxx, small.sxx, 1e-12);
+	EXPECT_NEAR(t.syy, small.syy, 1e-12);
+	EXPECT_NEAR(t.sxy, small.sxy, 1e-12);
+}
+
+TEST(BlockAssembly, RebuiltFromWhatMustBeKept)
+{
+	// What O.save leaves out is computed again: forces to the bit.
+	BlockAssembly a = voronoi(width, height, 4, 3, stone(), elasticJoint(100e9, 40e9), thickness);
+	a.addGroup(driven("foot", dofs(a, 1, [](const Vec2& x) { return x.y() == 0; }), 0));
+	for (Vec2& x : a.position)
+		x += 1e-5 * Vec2(std::sin(7 * x.y()), x.x() * x.y());
+	computeForces(a);
+	BlockAssembly b = a;
+	b.zoneGradient.clear(), b.zoneVolume.clear(), b.frames.clear(), b.sides.clear(), b.firstSide.clear(), b.segmentForce.clear(), b.mobility.clear();
+	b.rebuild();
+	EXPECT_TRUE(b.mobility == a.mobility);
+	EXPECT_EQ(b.sides, a.sides);
+	computeForces(b);
+	EXPECT_TRUE(b.force == a.force);
+}
+
+TEST(BlockAssembly, SameBitsOnAnyNumberOfThreads)
+{
+	// 400 cells, some 3000 nodes: more than one range of the integrator, and blocks enough to share out.
+	struct Run {
+		std::vector<Vec2> position, velocity;
+		Real              c = 0, damping = 0, kinetic = 0;
+	};
+	for (const auto kind : { Damping::Kind::none, Damping::Kind::local, Damping::Kind::adaptive }) {
+		std::vector<Run> runs;
+		for (int threads : { 1, 2, 3 }) {
+			JointParams joint = elasticJoint(100e9, 40e9);
+			joint.tension = joint.cohesion = 2e5; // some break on the way
+			BlockAssembly a                = voronoi(width, height, 20, 20, stone(), joint, thickness);
+			ASSERT_GT(2 * a.nodeCount(), 4096);
+			std::mt19937                         random(5);
+			std::uniform_real_distribution<Real> shift(-1e-6, 1e-6);
+			for (Vec2& x : a.position) {
+				const Real dx = shift(random), dy = shift(random);
+				x += Vec2(dx, dy);
+			}
+			a.addGroup(driven("foot", dofs(a, 1, [](const Vec2& x) { return x.y() == 0; }), 0));
+			a.addGroup(pushed("head", dofs(a, 1, [](const Vec2& x) { return x.y() == height; }), -1e5));
+			scaleInertia(a, nodalStiffness(a), 1e-5, 0.7);
+			Damping damping;
+			damping.kind = kind;
+			Run run;
+			for (int i = 0; i < 30; ++i) {
+				computeForces(a, threads);
+				const StepWork work = integrate(a, damping, 1e-5, i * 1e-5, true, threads);
+				run.damping += work.dampingBefore + work.dampingAfter, run.kinetic += work.kinetic;
+			}
+			run.position = a.position, run.velocity = a.velocity, run.c = damping.c;
+			runs.push_back(run);
+			int broken = 0;
+			for (const ContactPoint& p : a.points)
+				broken += p.joint.status != Joint::intact;
+			EXPECT_GT(broken, 0);
+		}
+		for (int i : { 1, 2 }) {
+			EXPECT_TRUE(runs[i].position == runs[0].position) << i + 1 << " threads";
+			EXPECT_TRUE(runs[i].velocity == runs[0].velocity);
+			EXPECT_EQ(runs[i].c, runs[0].c);
+			EXPECT_EQ(runs[i].damping, runs[0].damping);
+			EXPECT_EQ(runs[i].kinetic, runs[0].kinetic);
+		}
+	}
+}
+
+TEST(BlockAssembly, RefusesBadInput)
+{
+	const Real    nan = std::nan(""), inf = 1 / Real(0);
+	BlockAssembly a;
+	expectRefusal([&] { a.addMaterial({ 0, 0.2, 2000 }); }, { "young", "positive and finite [Pa]", "got 0" });
+	expectRefusal([&] { a.addMaterial({ inf, 0.2, 2000 }); }, { "young", "inf" });
+	expectRefusal([&] { a.addMaterial({ 1e9, 0.5, 2000 }); }, { "poisson", "(-1, 0.5)", "got 0.5" });
+	expectRefusal([&] { a.addMaterial({ 1e9, -1, 2000 }); }, { "poisson", "(-1, 0.5)", "got -1" });
+	expectRefusal([&] { a.addMaterial({ 1e9, nan, 2000 }); }, { "poisson", "nan" });
+	expectRefusal([&] { a.addMaterial({ 1e9, 0.2, -7 }); }, { "density", "positive and finite [kg/m3]", "got -7" });
+	EXPECT_TRUE(a.materials.empty());
+
+	const std::vector<Vec2> square { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
+	using Rings = std::vector<std::vector<int>>;
+	using Zones = std::vector<std::array<int, 3>>;
+	const Rings ring { { 0, 1, 2, 3 } };
+	const Zones zones { { 0, 1, 2 }, { 0, 2, 3 } };
+	expectRefusal([&] { a.addBlock(square, ring, zones, 0); }, { "material", "index of a known one", "got 0" });
+	a.addMaterial(stone());
+	expectRefusal([&] { a.addBlock(square, ring, zones, -1); }, { "material", "got -1" });
+	expectRefusal([&] { a.addBlock(square, {}, zones, 0); }, { "outline", "got 0" });
+	expectRefusal([&] { a.addBlock(square, Rings { { 0, 1 } }, zones, 0); }, { "outline", "at least 3", "got 2" });
+	expectRefusal([&] { a.addBlock({ { 0, 0 }, { nan, 0 }, { 1, 1 }, { 0, 1 } }, ring, zones, 0); }, { "points", "finite", "nan" });
+	expectRefusal([&] { a.addBlock(square, ring, Zones { { 0, 1, 4 }, { 0, 2, 3 } }, 0); }, { "zone's node", "got 4" });
+	expectRefusal([&] { a.addBlock(square, ring, Zones { { 0, 2, 1 }, { 0, 2, 3 } }, 0); }, { "zone's area", "positive", "got -0.5" });
+	expectRefusal([&] { a.addBlock(square, ring, Zones { { 0, 1, 2 } }, 0); }, { "every point", "zone", "got 0" });
+	expectRefusal([&] { a.addBlock(square, Rings { { 0, 1, 2, 9 } }, zones, 0); }, { "outline's node", "got 9" });
+	expectRefusal([&] { a.addBlock(square, Rings { { 3, 2, 1, 0 } }, zones, 0); }, { "counter-clockwise", "got -1" });
+	expectRefusal([&] { a.addBlock({ { 0, 0 }, { 1, 0 }, { 1, 0 }, { 0, 1 } }, ring, Zones {}, 0); }, { "edges", "length", "got 0" });
+	a.thickness = 0;
+	expectRefusal([&] { a.addBlock(square, ring, zones, 0); }, { "thickness", "positive and finite [m]", "got 0" });
+	a.thickness = nan;
+	expectRefusal([&] { a.addBlock(square, ring, zones, 0); }, { "thickness", "nan" });
+	a.thickness = 1;
+
+	// what was refused has left nothing behind
+	EXPECT_EQ(a.blockCount(), 0);
+	EXPECT_EQ(a.nodeCount(), 0);
+	EXPECT_EQ(a.zoneCount(), 0);
+	EXPECT_TRUE(a.edgeNodes.empty() && a.zoneGradient.empty() && a.zoneVolume.empty() && a.mass.empty());
+
+	a.addBlock(square, ring, zones, 0);
+	expectRefusal([&] { addGravity(a, { 0, nan }); }, { "gravity", "finite [m/s2]", "nan" });
+	expectRefusal([&] { addTraction(a, 4, { 1, 0 }); }, { "traction", "boundary edge", "got 4" });
+	expectRefusal([&] { addTraction(a, -1, { 1, 0 }); }, { "traction", "boundary edge", "got -1" });
+	expectRefusal([&] { addTraction(a, 0, { inf, 0 }); }, { "traction", "finite [Pa]" });
+	EXPECT_TRUE(a.load.empty());
+}
