@@ -16,8 +16,8 @@ py::list Block::outline() const
 {
 	py::list    list;
 	const auto& a = assembly();
-	for (int e = a.firstEdge[index]; e < a.firstEdge[index + 1]; ++e)
-		list.append(Vector2r(a.position[a.edgeNodes[e][0]]));
+	for (int e = a.mesh.firstEdge[index]; e < a.mesh.firstEdge[index + 1]; ++e)
+		list.append(Vector2r(a.position(a.mesh.edgeNodes[e][0])));
 	return list;
 }
 
@@ -25,13 +25,13 @@ Vector2r Block::force() const
 {
 	Vector2r    sum = Vector2r::Zero();
 	const auto& a   = assembly();
-	for (int n = a.firstNode[index]; n < a.firstNode[index + 1]; ++n)
-		sum += a.force[n];
+	for (int n = a.mesh.firstNode[index]; n < a.mesh.firstNode[index + 1]; ++n)
+		sum += a.forces.nodal[n];
 	return sum;
 }
 
-py::tuple Block::nodes() const { return py::make_tuple(assembly().firstNode[index], assembly().firstNode[index + 1]); }
-py::tuple Block::zones() const { return py::make_tuple(assembly().firstZone[index], assembly().firstZone[index + 1]); }
+py::tuple Block::nodes() const { return py::make_tuple(assembly().mesh.firstNode[index], assembly().mesh.firstNode[index + 1]); }
+py::tuple Block::zones() const { return py::make_tuple(assembly().mesh.firstZone[index], assembly().mesh.firstZone[index + 1]); }
 
 YADE_PLUGIN((Block)(BlockMat));
 

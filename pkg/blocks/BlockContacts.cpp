@@ -23,10 +23,10 @@ void Bo1_Block_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound
 	if (!bound) bound = shared_ptr<Bound>(new Aabb);
 	const Block* block = static_cast<const Block*>(shape.get());
 	const auto&  a     = block->assembly();
-	Vector2r     lo = a.position[a.firstNode[block->index]], hi = lo;
-	for (int n = a.firstNode[block->index]; n < a.firstNode[block->index + 1]; ++n) {
-		lo = lo.cwiseMin(a.position[n]);
-		hi = hi.cwiseMax(a.position[n]);
+	Vector2r     lo = a.position(a.mesh.firstNode[block->index]), hi = lo;
+	for (int n = a.mesh.firstNode[block->index]; n < a.mesh.firstNode[block->index + 1]; ++n) {
+		lo = lo.cwiseMin(a.position(n));
+		hi = hi.cwiseMax(a.position(n));
 	}
 	const Real margin = blocks::contactMargin(a, block->index) + sweepOf(a, block->index);
 	bound->min        = Vector3r(lo.x() - margin, lo.y() - margin, se3.position.z());
@@ -51,7 +51,7 @@ void BlockContacts::update()
 			reach.push_back(sweepOf(a, i));
 		contactsVersion = 0;
 	}
-	if (a.contacts.releasable.size() != a.pairs.size()) blocks::enableRelease(a);
+	if (a.contacts.releasable.size() != a.joints.pairs.size()) blocks::enableRelease(a);
 	a.contacts.wanted = true;
 	blocks::prepareContacts(a);
 	if (a.contacts.version != contactsVersion) {
@@ -86,8 +86,8 @@ bool BlockContacts::colliderNeeded(const BlockModel& model)
 	for (int block = 0; block < a.blockCount(); ++block) {
 		if (a.odometer.path[block] < nearUntil[block]) continue;
 		Real square = 0;
-		for (int n = a.firstNode[block]; n < a.firstNode[block + 1]; ++n)
-			square = std::max(square, (a.position[n] - sortedAt[n]).squaredNorm());
+		for (int n = a.mesh.firstNode[block]; n < a.mesh.firstNode[block + 1]; ++n)
+			square = std::max(square, (a.position(n) - sortedAt[n]).squaredNorm());
 		if (!(square <= reach[block] * reach[block])) return true;
 		nearUntil[block] = a.odometer.path[block] + reach[block] - std::sqrt(square);
 	}

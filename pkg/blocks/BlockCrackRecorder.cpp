@@ -11,14 +11,14 @@ BlockCrackRecorder::~BlockCrackRecorder() = default;
 namespace {
 	const char* nameOf(int mode) { return mode == int(blocks::Joint::brokenInTension) ? "tension" : "shear"; }
 
-	string labelOf(const BlockModel& model, int block) { return model.materialLabels[model.assembly.blockMaterial[block]]; }
+	string labelOf(const BlockModel& model, int block) { return model.materialLabels[model.assembly.mesh.blockMaterial[block]]; }
 }
 
 void BlockCrackRecorder::action()
 {
 	const BlockModel&            model = modelOf(scene);
 	const blocks::BlockAssembly& a     = model.assembly;
-	if (known.size() != a.points.size()) { // the first look: what is broken already is no event
+	if (known.size() != a.state.status.size()) { // the first look: what is broken already is no event
 		known.clear();
 		for (const auto& p : a.points)
 			known.push_back(int(p.joint.status));
@@ -28,8 +28,8 @@ void BlockCrackRecorder::action()
 		points.pop_back(), modes.pop_back(), steps.pop_back(), times.pop_back(), positions.pop_back();
 	}
 	const size_t before = points.size();
-	for (size_t i = 0; i < a.points.size(); ++i) {
-		const int status = int(a.points[i].joint.status);
+	for (size_t i = 0; i < a.state.status.size(); ++i) {
+		const int status = int(a.state.status[i]);
 		if (status == known[i]) continue;
 		const bool earlier = known[i] != 0; // statuses only grow, but for a rescue
 		known[i]           = status;
@@ -44,7 +44,7 @@ void BlockCrackRecorder::action()
 	std::ofstream file(fileName, std::ios::app);
 	file.precision(9);
 	for (size_t e = before; e < points.size(); ++e) {
-		const auto& g     = a.segments[points[e] / 2];
+		const auto& g     = a.joints.segments[points[e] / 2];
 		const auto& frame = a.frames[points[e] / 2];
 		file << steps[e] << ' ' << times[e] << ' ' << positions[e].x() << ' ' << positions[e].y() << ' ' << frame.nx << ' ' << frame.ny << ' '
 		     << nameOf(modes[e]) << ' ' << model.firstBody + g.block[0] << ' ' << model.firstBody + g.block[1] << ' ' << labelOf(model, g.block[0])
@@ -59,7 +59,7 @@ py::list BlockCrackRecorder::events() const
 	if (points.empty()) return list;
 	const BlockModel& model = *BlockModel::of(Omega::instance().getScene().get());
 	for (size_t e = 0; e < points.size(); ++e) {
-		const auto& g = model.assembly.segments[points[e] / 2];
+		const auto& g = model.assembly.joints.segments[points[e] / 2];
 		py::dict    event;
 		event["step"]      = steps[e];
 		event["time"]      = times[e];

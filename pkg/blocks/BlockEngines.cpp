@@ -70,7 +70,7 @@ void BlockTimeStepper::adjust(Scene* scene)
 
 	const auto& stiffness = model.stiffness();
 	stableStep            = std::min(
-                blocks::stableTimeStep(model.assembly, stiffness, model.assembly.mass),
+                blocks::stableTimeStep(model.assembly, stiffness, model.assembly.mesh.mass),
                 blocks::rigidTimeStep(model.assembly, stiffness, blocks::Masses::actual));
 	const Real kinetic = scene->trackEnergy ? blocks::gridPointsKineticEnergy(model.assembly) : 0;
 	if (quasiStatic) {
@@ -79,7 +79,7 @@ void BlockTimeStepper::adjust(Scene* scene)
 		blocks::scaleRigidInertia(model.assembly, stiffness, scene->dt, safety);
 	} else {
 		if (std::isfinite(stableStep)) scene->dt = safety * stableStep; // rigid blocks that touch nothing have no limit
-		model.assembly.inertia = model.assembly.mass;
+		model.assembly.state.inertia = model.assembly.mesh.mass;
 		model.assembly.updateMobility();
 		blocks::restoreRigidInertia(model.assembly);
 	}
@@ -99,7 +99,7 @@ void BlockForces::gather()
 	const int              threads = threadsFor(model, ompThreads);
 	blocks::computeJointForces(a, threads);
 	blocks::gatherForces(a, threads);
-	if (!a.rigid.empty()) {
+	if (!a.state.rigid.empty()) {
 		noteFreedom(scene, model);
 		const Engine* newton = requireMovers(scene, model);
 		if (newton && (newton != asked || scene->iter % askPeriod == 0)) {
@@ -117,7 +117,7 @@ void BlockForces::gather()
 		frictionId = fractureId = -1;
 	}
 	if (!scene->trackEnergy) return;
-	if (dissipation.before.size() != a.points.size())
+	if (dissipation.before.size() != a.state.status.size())
 		dissipation.start(a);
 	else
 		dissipation.book(a);
@@ -149,13 +149,13 @@ void BlockIntegrator::postLoad(BlockIntegrator&)
 void BlockIntegrator::checkStep(BlockModel& model)
 {
 	const blocks::BlockAssembly& a = model.assembly;
-	for (size_t pair = 0; pair < a.pairs.size(); ++pair)
-		if (!(a.joints[pair].kn > 0))
+	for (size_t pair = 0; pair < a.joints.pairs.size(); ++pair)
+		if (!(a.joints.ofPair[pair].kn > 0))
 			throw std::runtime_error(
-				"the joint between blocks " + std::to_string(a.pairs[pair].block[0]) + " and " + std::to_string(a.pairs[pair].block[1])
+				"the joint between blocks " + std::to_string(a.joints.pairs[pair].block[0]) + " and " + std::to_string(a.joints.pairs[pair].block[1])
 				+ " has no properties: O.engines needs an InteractionLoop with Ip2_BlockMat_BlockMat_JointPhys before BlockIntegrator");
 	blocks::require(scene->dt > 0 && std::isfinite(scene->dt), "O.dt must be positive and finite [s]", scene->dt);
-	const Real share = scene->dt / blocks::stableTimeStep(a, model.stiffness(), a.inertia), limit = blocks::largestSafety(law);
+	const Real share = scene->dt / blocks::stableTimeStep(a, model.stiffness(), a.state.inertia), limit = blocks::largestSafety(law);
 	const Real rigidShare = scene->dt / blocks::rigidTimeStep(a, model.stiffness(), blocks::Masses::resisting),
 		   rigidLimit = 0.95 / std::sqrt(1 + model.newtonDamping);
 	blocks::require(
@@ -178,7 +178,7 @@ static void writeCentroids(Scene* scene, const BlockModel& model)
 	for (int i = 0; i < a.blockCount(); ++i) {
 		const auto& body = (*scene->bodies)[model.firstBody + i];
 		if (!body) throw std::runtime_error("body " + std::to_string(model.firstBody + i) + " was erased, but blocks cannot leave their model");
-		if (a.firstZone[i] == a.firstZone[i + 1]) continue; // it was the body that moved
+		if (a.mesh.firstZone[i] == a.mesh.firstZone[i + 1]) continue; // it was the body that moved
 		const blocks::Vec2 centroid = a.centroid(i);
 		body->state->pos            = Vector3r(centroid.x(), centroid.y(), 0);
 	}
@@ -206,7 +206,7 @@ void BlockIntegrator::advance()
 	const Real loadWork = account ? blocks::loadWork(a) : 0;
 	law.c               = viscosity;
 	blocks::StepWork work;
-	if (!a.rigid.empty()) work = followRigidBodies(scene, model);
+	if (!a.state.rigid.empty()) work = followRigidBodies(scene, model);
 	work += blocks::integrate(a, law, scene->dt, scene->time, account, threadsFor(model, ompThreads));
 	viscosity = law.c;
 	if (account) {

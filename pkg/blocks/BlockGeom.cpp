@@ -27,7 +27,7 @@ bool Ig2_Block_Block_BlockGeom::go(
 	blocks::BlockAssembly& a = geom->model->assembly;
 	if (!a.contacts.wanted) { // bonds are all there is
 		if (geom->pair >= 0)
-			blocks::updateKinematics(a, a.pairs[geom->pair].first, a.pairs[geom->pair].last);
+			blocks::updateKinematics(a, a.joints.pairs[geom->pair].first, a.joints.pairs[geom->pair].last);
 		else
 			geom->model->complain(
 				"a collider has found blocks " + std::to_string(index(shape1)) + " and " + std::to_string(index(shape2))
@@ -38,7 +38,7 @@ bool Ig2_Block_Block_BlockGeom::go(
 		geom->contactsVersion = a.contacts.version;
 		geom->contact         = a.contacts.order.empty() ? -1 : blocks::contactOf(a, index(shape1), index(shape2), geom->contact);
 	}
-	if (geom->pair >= 0) blocks::updateKinematics(a, a.pairs[geom->pair].first, a.pairs[geom->pair].last, blocks::Which::unreleased);
+	if (geom->pair >= 0) blocks::updateKinematics(a, a.joints.pairs[geom->pair].first, a.joints.pairs[geom->pair].last, blocks::Which::unreleased);
 	if (geom->contact >= 0)
 		blocks::updateContact(a, geom->contact);
 	else if (geom->pair < 0 && !interaction->isReal()) {
@@ -55,7 +55,7 @@ namespace {
 		py::list list;
 		if (geom.pair < 0) return list;
 		auto&       a    = geom.model->assembly;
-		const auto& pair = a.pairs[geom.pair];
+		const auto& pair = a.joints.pairs[geom.pair];
 		blocks::updateKinematics(a, pair.first, pair.last, blocks::Which::released);
 		for (int i = 2 * pair.first; i < 2 * pair.last; ++i)
 			list.append(value(a, i));
@@ -99,15 +99,15 @@ py::list BlockGeom::normals() const
 }
 py::list BlockGeom::areas() const
 {
-	return eachPoint(*this, [](const blocks::BlockAssembly& a, int i) { return a.segments[i / 2].area; });
+	return eachPoint(*this, [](const blocks::BlockAssembly& a, int i) { return a.joints.segments[i / 2].area; });
 }
 py::list BlockGeom::openings() const
 {
-	return eachPoint(*this, [](const blocks::BlockAssembly& a, int i) { return a.points[i].opening; });
+	return eachPoint(*this, [](const blocks::BlockAssembly& a, int i) { return a.state.opening[i]; });
 }
 py::list BlockGeom::slips() const
 {
-	return eachPoint(*this, [](const blocks::BlockAssembly& a, int i) { return a.points[i].slip; });
+	return eachPoint(*this, [](const blocks::BlockAssembly& a, int i) { return a.state.slip[i]; });
 }
 
 YADE_PLUGIN((BlockGeom)(Ig2_Block_Block_BlockGeom));

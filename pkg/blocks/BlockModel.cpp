@@ -162,9 +162,9 @@ void BlockModel::requireOpen(const char* what) const
 
 void BlockModel::setJoint(int pair, const blocks::JointParams& params, bool bonded)
 {
-	assembly.joints[pair] = params;
-	for (int i = 2 * assembly.pairs[pair].first; i < 2 * assembly.pairs[pair].last; ++i)
-		assembly.points[i].joint.status = bonded ? blocks::Joint::intact : blocks::Joint::unbonded;
+	assembly.joints.ofPair[pair] = params;
+	for (int i = 2 * assembly.joints.pairs[pair].first; i < 2 * assembly.joints.pairs[pair].last; ++i)
+		assembly.state.status[i] = bonded ? blocks::Joint::intact : blocks::Joint::unbonded;
 	stiffnessChanged();
 }
 
@@ -186,26 +186,26 @@ void BlockModel::insert()
 		shape->model        = self;
 		shape->index        = i;
 		body->shape         = shape;
-		const string& label = materialLabels[assembly.blockMaterial[i]];
+		const string& label = materialLabels[assembly.mesh.blockMaterial[i]];
 		for (const auto& material : scene->materials)
 			if (material->label == label) body->material = material;
 		body->state->pos = body->state->refPos = Vector3r(centroid.x(), centroid.y(), 0);
-		if (rigid < assembly.rigid.size() && assembly.rigid[rigid].block == i) {
-			const blocks::RigidBlock& r = assembly.rigid[rigid++];
+		if (rigid < assembly.state.rigid.size() && assembly.state.rigid[rigid].block == i) {
+			const blocks::RigidBlock& r = assembly.state.rigid[rigid++];
 			body->state->blockedDOFs    = State::DOF_Z | State::DOF_RX | State::DOF_RY;
 			body->state->mass           = r.inertia;
 			body->state->inertia        = Vector3r::Constant(r.rotaryInertia); // about z; the others only because YADE divides by them
 		} else {
 			body->state->blockedDOFs = State::DOF_ALL; // the grid points move, not the body
-			for (int n = assembly.firstNode[i]; n < assembly.firstNode[i + 1]; ++n)
-				body->state->mass += assembly.mass[n];
+			for (int n = assembly.mesh.firstNode[i]; n < assembly.mesh.firstNode[i + 1]; ++n)
+				body->state->mass += assembly.mesh.mass[n];
 		}
 		const int id = scene->bodies->insert(body);
 		if (i == 0) firstBody = id;
 		if (id != firstBody + i) throw std::runtime_error("BlockModel.insert: body ids are not consecutive; insert blocks before erasing bodies");
 	}
-	for (size_t pair = 0; pair < assembly.pairs.size(); ++pair) {
-		const auto& block       = assembly.pairs[pair].block;
+	for (size_t pair = 0; pair < assembly.joints.pairs.size(); ++pair) {
+		const auto& block       = assembly.joints.pairs[pair].block;
 		auto        interaction = shared_ptr<Interaction>(new Interaction(firstBody + block[0], firstBody + block[1]));
 		auto        geom        = shared_ptr<BlockGeom>(new BlockGeom);
 		geom->model             = self;
@@ -219,7 +219,7 @@ void BlockModel::insert()
 blocks::MotionGroup& BlockModel::group(const std::string& name)
 {
 	string known;
-	for (blocks::MotionGroup& g : assembly.groups) {
+	for (blocks::MotionGroup& g : assembly.state.groups) {
 		if (g.name == name) return g;
 		known += (known.empty() ? "" : ", ") + g.name;
 	}

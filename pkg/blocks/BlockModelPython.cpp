@@ -122,8 +122,8 @@ namespace {
 		blocks::Outline       outline = blocks::Outline::split;
 		if (conforming) { // the neighbours' boundary points become this block's own
 			std::vector<Vec2> points;
-			for (const auto& edge : a.edgeNodes)
-				points.push_back(a.position[edge[0]]);
+			for (const auto& edge : a.mesh.edgeNodes)
+				points.push_back(a.position(edge[0]));
 			const size_t corners   = region.outer.size();
 			const Real   tolerance = 1e-6 * std::sqrt(std::abs(blocks::signedArea(region.outer)));
 			region.outer           = blocks::withPointsOnEdges(region.outer, points, tolerance);
@@ -169,7 +169,7 @@ namespace {
 	{
 		model.requireOpen("BlockModel.bond");
 		model.assembly.bond(blocks::detectSegments(model.assembly, tolerance));
-		return int(model.assembly.pairs.size());
+		return int(model.assembly.joints.pairs.size());
 	}
 
 	// ---- boundary conditions
@@ -191,7 +191,7 @@ namespace {
 
 	void add(BlockModel& model, MotionGroup g)
 	{
-		for (const MotionGroup& other : model.assembly.groups)
+		for (const MotionGroup& other : model.assembly.state.groups)
 			if (other.name == g.name) throw std::invalid_argument("there is a motion group \"" + g.name + "\" already");
 		model.assembly.addGroup(std::move(g));
 		model.stiffnessChanged();
@@ -216,7 +216,7 @@ namespace {
 	void release(BlockModel& model, const string& name)
 	{
 		MotionGroup& g = model.group(name);
-		model.assembly.groups.erase(model.assembly.groups.begin() + (&g - model.assembly.groups.data()));
+		model.assembly.state.groups.erase(model.assembly.state.groups.begin() + (&g - model.assembly.state.groups.data()));
 		model.assembly.updateMobility();
 		model.stiffnessChanged();
 	}
@@ -243,7 +243,7 @@ namespace {
 	py::list groupNames(const BlockModel& model)
 	{
 		py::list names;
-		for (const MotionGroup& g : model.assembly.groups)
+		for (const MotionGroup& g : model.assembly.state.groups)
 			names.append(g.name);
 		return names;
 	}
@@ -302,7 +302,7 @@ namespace {
 		np::ndarray out  = np::empty(py::make_tuple(a.zoneCount(), 3), np::dtype::get_builtin<Real>());
 		Real*       data = reinterpret_cast<Real*>(out.get_data());
 		for (int block = 0; block < a.blockCount(); ++block)
-			for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z) {
+			for (int z = a.mesh.firstZone[block]; z < a.mesh.firstZone[block + 1]; ++z) {
 				const blocks::ZoneStress s = blocks::cauchyStress(a, block, z);
 				data[3 * z] = s.sxx, data[3 * z + 1] = s.syy, data[3 * z + 2] = s.sxy;
 			}
@@ -317,10 +317,10 @@ namespace {
 				"BlockModel.cornerTriangles: block must lie in [0, " + std::to_string(a.blockCount()) + "), got " + std::to_string(block));
 		std::vector<int>          corners; // grid points of the rings, one ring after the other
 		std::vector<blocks::Ring> rings;
-		for (int e = a.firstEdge[block], first = -1; e < a.firstEdge[block + 1]; ++e) {
-			const auto [node, next] = a.edgeNodes[e];
+		for (int e = a.mesh.firstEdge[block], first = -1; e < a.mesh.firstEdge[block + 1]; ++e) {
+			const auto [node, next] = a.mesh.edgeNodes[e];
 			if (first < 0) rings.emplace_back(), first = node;
-			rings.back().push_back(a.reference[node]);
+			rings.back().push_back(a.mesh.reference[node]);
 			corners.push_back(node);
 			if (next == first) first = -1;
 		}
@@ -338,9 +338,9 @@ namespace {
 	{
 		BlockAssembly& a = arrays(self);
 		startNumpy();
-		np::ndarray out  = np::empty(py::make_tuple(a.points.size(), 2), np::dtype::get_builtin<Real>());
+		np::ndarray out  = np::empty(py::make_tuple(a.state.status.size(), 2), np::dtype::get_builtin<Real>());
 		Real*       data = reinterpret_cast<Real*>(out.get_data());
-		for (size_t i = 0; i < a.points.size(); ++i) {
+		for (size_t i = 0; i < a.state.status.size(); ++i) {
 			const Vec2 x = blocks::contactPosition(a, int(i));
 			data[2 * i] = x.x(), data[2 * i + 1] = x.y();
 		}
@@ -362,7 +362,7 @@ namespace {
 	.add_property(                                                                                                                                         \
 		#name,                                                                                                                                         \
 		py::make_function(+[](py::object self) -> py::object {                                                                                         \
-			blocks::updateKinematics(arrays(self), 0, int(arrays(self).segments.size()), blocks::Which::released);                                 \
+			blocks::updateKinematics(arrays(self), 0, int(arrays(self).joints.segments.size()), blocks::Which::released);                                 \
 			return view<Real>(self, arrays(self).member, columns, Use::result, offsetof(blocks::Item, field));                                     \
 		}),                                                                                                                                            \
 		doc)
@@ -370,7 +370,7 @@ namespace {
 	py::dict zoneQuality(const BlockModel& m)
 	{
 		if (m.assembly.zoneCount() == 0) throw std::runtime_error("BlockModel.zoneQuality: the model has no zones yet");
-		const auto q = blocks::quality({ m.assembly.reference, {}, m.assembly.zoneNodes });
+		const auto q = blocks::quality({ m.assembly.mesh.reference, {}, m.assembly.mesh.zoneNodes });
 		py::dict   out;
 		out["minAngle"] = q.minAngle, out["maxAngle"] = q.maxAngle;
 		out["minArea"] = q.minArea, out["maxArea"] = q.maxArea;
@@ -381,7 +381,7 @@ namespace {
 	int  blockCount(const BlockModel& m) { return m.assembly.blockCount(); }
 	int  nodeCount(const BlockModel& m) { return m.assembly.nodeCount(); }
 	int  zoneCount(const BlockModel& m) { return m.assembly.zoneCount(); }
-	int  contactCount(const BlockModel& m) { return int(m.assembly.points.size()); }
+	int  contactCount(const BlockModel& m) { return int(m.assembly.state.status.size()); }
 	Real unbalancedRatio(const BlockModel& m, Real floor) { return blocks::unbalancedRatio(m.assembly, floor); }
 	Real kineticEnergy(const BlockModel& m) { return blocks::kineticEnergy(m.assembly); }
 
@@ -658,7 +658,7 @@ namespace {
 		py::list list;
 		phys.joint();
 		const auto& a = phys.model->assembly;
-		for (int i = 2 * a.pairs[phys.pair].first; i < 2 * a.pairs[phys.pair].last; ++i)
+		for (int i = 2 * a.joints.pairs[phys.pair].first; i < 2 * a.joints.pairs[phys.pair].last; ++i)
 			list.append(value(a.points[i]));
 		return list;
 	}

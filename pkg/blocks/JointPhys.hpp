@@ -47,7 +47,7 @@ public:
 	blocks::JointParams& joint() const
 	{
 		if (!model) throw std::runtime_error("JointPhys.model is empty: joints are made by Ip2_BlockMat_BlockMat_JointPhys");
-		return pair >= 0 ? model->assembly.joints[pair] : model->assembly.contacts.all.at(contact).joint;
+		return pair >= 0 ? model->assembly.joints.ofPair[pair] : model->assembly.contacts.all.at(contact).joint;
 	}
 
 	// clang-format off

@@ -49,13 +49,13 @@ const Engine* requireMovers(const Scene* scene, const BlockModel& model)
 	}
 	if (place[resetter] < 0 || place[resetter] > place[forces])
 		throw std::runtime_error(
-			"O.engines needs a ForceResetter before BlockForces because of " + named(model, model.assembly.rigid.front())
+			"O.engines needs a ForceResetter before BlockForces because of " + named(model, model.assembly.state.rigid.front())
 			+ ", or forces on its body would add up from step to step");
 	if (place[newton] > place[forces] && place[newton] < place[integrator]) return mover;
 	if (mover)
 		throw std::runtime_error(
 			"NewtonIntegrator must stand between BlockForces and BlockIntegrator in O.engines, or rigid blocks would move one step late");
-	for (const auto& r : model.assembly.rigid)
+	for (const auto& r : model.assembly.state.rigid)
 		if (!isHeld(stateOf(scene, model, r)))
 			throw std::runtime_error(
 				"O.engines needs a NewtonIntegrator between BlockForces and BlockIntegrator to move " + named(model, r)
@@ -80,7 +80,7 @@ Real newtonDamping(const Engine& newton)
 
 void noteFreedom(const Scene* scene, BlockModel& model)
 {
-	for (auto& r : model.assembly.rigid) {
+	for (auto& r : model.assembly.state.rigid) {
 		const unsigned            blocked = stateOf(scene, model, r).blockedDOFs;
 		const std::array<bool, 3> free { !(blocked & State::DOF_X), !(blocked & State::DOF_Y), !(blocked & State::DOF_RZ) };
 		if (free == r.free) continue;
@@ -91,7 +91,7 @@ void noteFreedom(const Scene* scene, BlockModel& model)
 
 void writeMasses(const Scene* scene, BlockModel& model)
 {
-	for (auto& r : model.assembly.rigid) {
+	for (auto& r : model.assembly.state.rigid) {
 		State& state = stateOf(scene, model, r);
 		if (state.mass == r.inertia && state.inertia.z() == r.rotaryInertia) continue;
 		const blocks::Vec3 old { state.mass, state.mass, state.inertia.z() };
@@ -110,7 +110,7 @@ void writeMasses(const Scene* scene, BlockModel& model)
 void addRigidForces(Scene* scene, BlockModel& model)
 {
 	blocks::gatherRigidForces(model.assembly);
-	for (auto& r : model.assembly.rigid) {
+	for (auto& r : model.assembly.state.rigid) {
 		const State& state = stateOf(scene, model, r);
 		if (state.mass != r.inertia || state.inertia.z() != r.rotaryInertia)
 			throw std::runtime_error(
@@ -130,7 +130,7 @@ blocks::StepWork followRigidBodies(Scene* scene, BlockModel& model)
 {
 	scene->forces.sync(); // NewtonIntegrator has done so, if there is one
 	blocks::StepWork work;
-	for (auto& r : model.assembly.rigid) {
+	for (auto& r : model.assembly.state.rigid) {
 		const State&       state = stateOf(scene, model, r);
 		const Quaternionr& ori   = state.ori;
 		if (state.pos.z() != 0 || ori.x() != 0 || ori.y() != 0)
@@ -150,7 +150,7 @@ blocks::StepWork followRigidBodies(Scene* scene, BlockModel& model)
 
 void restoreRigidBodies(const Scene* scene, const BlockModel& model)
 {
-	for (const auto& r : model.assembly.rigid) {
+	for (const auto& r : model.assembly.state.rigid) {
 		State& state  = stateOf(scene, model, r);
 		state.pos     = { r.centre.x(), r.centre.y(), 0 };
 		state.ori     = Quaternionr(r.halfTurn.x(), 0, 0, r.halfTurn.y());

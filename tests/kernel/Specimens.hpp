@@ -84,7 +84,7 @@ inline int addGrid(BlockAssembly& a, Vec2 corner, Real width, Real height, int n
 inline void bondAll(BlockAssembly& a, const JointParams& joint)
 {
 	a.bond(detectSegments(a));
-	a.joints.assign(a.pairs.size(), joint);
+	a.joints.ofPair.assign(a.joints.pairs.size(), joint);
 }
 
 /// Two quadrilaterals of unequal size and mesh that share the skew edge (1, 0)-(1.3, 0.8); their zones are lopsided.
@@ -155,8 +155,8 @@ voronoi(Real w, Real h, int nx, int ny, const Material& m, const JointParams& jo
 /// Kinematics, law, joint forces, gathering: everything between positions and forces.
 inline void computeForces(BlockAssembly& a, int threads = 1)
 {
-	updateKinematics(a, 0, int(a.segments.size()));
-	for (int pair = 0; pair < int(a.pairs.size()); ++pair)
+	updateKinematics(a, 0, int(a.joints.segments.size()));
+	for (int pair = 0; pair < int(a.joints.pairs.size()); ++pair)
 		advanceJoints(a, pair, advance);
 	computeJointForces(a, threads);
 	gatherForces(a, threads);
@@ -169,13 +169,13 @@ inline void rotateAbout(BlockAssembly& a, Vec2 centre, Real angle, Vec2 shift, i
 	Eigen::Matrix<Real, 2, 2> r;
 	r << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
 	for (int n = firstNode; n < (lastNode < 0 ? a.nodeCount() : lastNode); ++n)
-		a.position[n] = centre + r * (a.position[n] - centre) + shift;
+		a.place(n, centre + r * (a.position(n) - centre) + shift);
 }
 
 inline Vec2 totalForce(const BlockAssembly& a)
 {
 	Vec2 sum = Vec2::Zero();
-	for (const Vec2& f : a.force)
+	for (const Vec2& f : a.forces.nodal)
 		sum += f;
 	return sum;
 }
@@ -184,14 +184,14 @@ inline Real totalMoment(const BlockAssembly& a)
 {
 	Real sum = 0;
 	for (int n = 0; n < a.nodeCount(); ++n)
-		sum += cross(a.position[n], a.force[n]);
+		sum += cross(a.position(n), a.forces.nodal[n]);
 	return sum;
 }
 
 inline Real largestForce(const BlockAssembly& a)
 {
 	Real largest = 0;
-	for (const Vec2& f : a.force)
+	for (const Vec2& f : a.forces.nodal)
 		largest = std::max(largest, f.cwiseAbs().maxCoeff());
 	return largest;
 }
@@ -202,7 +202,7 @@ inline Eigen::MatrixXd stiffnessMatrix(BlockAssembly a, Real d)
 	const int       n = 2 * a.nodeCount();
 	Eigen::MatrixXd k(n, n);
 	Real* const     x = a.position.data()->data();
-	const auto      f = Eigen::Map<Eigen::VectorXd>(a.force.data()->data(), n);
+	const auto      f = Eigen::Map<Eigen::VectorXd>(a.forces.nodal.data()->data(), n);
 	for (int j = 0; j < n; ++j) {
 		const Real at = x[j];
 		x[j]          = at - d;
@@ -227,12 +227,12 @@ inline Modes modes(const BlockAssembly& a, Real d)
 {
 	Modes m;
 	for (int i = 0; i < 2 * a.nodeCount(); ++i)
-		if (a.mobility[i / 2][i % 2] > 0) m.free.push_back(i);
+		if (a.supports.mobility[i / 2][i % 2] > 0) m.free.push_back(i);
 	const Eigen::MatrixXd all = stiffnessMatrix(a, d);
 	const int             n   = int(m.free.size());
 	Eigen::MatrixXd       k(n, n), mass = Eigen::MatrixXd::Zero(n, n);
 	for (int i = 0; i < n; ++i) {
-		mass(i, i) = 1 / a.mobility[m.free[i] / 2][m.free[i] % 2];
+		mass(i, i) = 1 / a.supports.mobility[m.free[i] / 2][m.free[i] % 2];
 		for (int j = 0; j < n; ++j)
 			k(i, j) = all(m.free[i], m.free[j]);
 	}
@@ -246,11 +246,11 @@ inline Modes modes(const BlockAssembly& a, Real d)
 /// where nothing else holds the specimen, so loads must balance.
 inline void solveStatics(BlockAssembly& a, Real d, bool holdThree, int iterations = 3)
 {
-	const Vec2       arm    = a.position[1] - a.position[0];
+	const Vec2       arm    = a.position(1) - a.position(0);
 	const int        across = std::abs(arm.x()) > std::abs(arm.y()) ? 3 : 2; // of node 1, across the line from node 0
 	std::vector<int> free;
 	for (int i = 0; i < 2 * a.nodeCount(); ++i)
-		if (a.mobility[i / 2][i % 2] > 0 && !(holdThree && (i < 2 || i == across))) free.push_back(i);
+		if (a.supports.mobility[i / 2][i % 2] > 0 && !(holdThree && (i < 2 || i == across))) free.push_back(i);
 	const Eigen::MatrixXd all = stiffnessMatrix(a, d);
 	const int             n   = int(free.size());
 	Eigen::MatrixXd       k(n, n);
@@ -262,10 +262,10 @@ inline void solveStatics(BlockAssembly& a, Real d, bool holdThree, int iteration
 		computeForces(a);
 		Eigen::VectorXd f(n);
 		for (int i = 0; i < n; ++i)
-			f[i] = a.force[free[i] / 2][free[i] % 2];
+			f[i] = a.forces.nodal[free[i] / 2][free[i] % 2];
 		const Eigen::VectorXd u = solver.solve(f);
 		for (int i = 0; i < n; ++i)
-			a.position[free[i] / 2][free[i] % 2] += u[i];
+			a.position(free[i] / 2)[free[i] % 2] += u[i];
 	}
 }
 
@@ -273,11 +273,11 @@ inline void solveStatics(BlockAssembly& a, Real d, bool holdThree, int iteration
 inline ZoneStress stressOfZone(const BlockAssembly& a, int zone)
 {
 	int block = 0;
-	while (a.firstZone[block + 1] <= zone)
+	while (a.mesh.firstZone[block + 1] <= zone)
 		++block;
-	const Material& m    = a.materials[a.blockMaterial[block]];
-	const auto&     node = a.zoneNodes[zone];
-	const Vec2      p = a.position[node[1]] - a.position[node[0]], q = a.position[node[2]] - a.position[node[0]];
+	const Material& m    = a.materials[a.mesh.blockMaterial[block]];
+	const auto&     node = a.mesh.zoneNodes[zone];
+	const Vec2      p = a.position(node[1]) - a.position(node[0]), q = a.position(node[2]) - a.position(node[0]);
 	const auto&     g = a.zoneGradient[zone];
 	return zoneStress(
 		planeModuli(m.young, m.poisson, a.plane),
@@ -289,8 +289,8 @@ inline ZoneStress stressOfZone(const BlockAssembly& a, int zone)
 template <class Visit> void forEachOuterEdge(const BlockAssembly& a, Real w, Real h, const Visit& visit)
 {
 	const Real near = 1e-9 * (w + h);
-	for (int i = 0; i < int(a.edgeNodes.size()); ++i) {
-		const Vec2 p = a.reference[a.edgeNodes[i][0]], q = a.reference[a.edgeNodes[i][1]];
+	for (int i = 0; i < int(a.mesh.edgeNodes.size()); ++i) {
+		const Vec2 p = a.mesh.reference[a.mesh.edgeNodes[i][0]], q = a.mesh.reference[a.mesh.edgeNodes[i][1]];
 		if (std::abs(p.x()) < near && std::abs(q.x()) < near) visit(i, Vec2(-1, 0));
 		if (std::abs(p.x() - w) < near && std::abs(q.x() - w) < near) visit(i, Vec2(1, 0));
 		if (std::abs(p.y()) < near && std::abs(q.y()) < near) visit(i, Vec2(0, -1));
@@ -303,7 +303,7 @@ template <class Where> std::vector<int> dofs(const BlockAssembly& a, int axis, c
 {
 	std::vector<int> list;
 	for (int n = 0; n < a.nodeCount(); ++n)
-		if (here(a.reference[n])) list.push_back(2 * n + axis);
+		if (here(a.mesh.reference[n])) list.push_back(2 * n + axis);
 	return list;
 }
 

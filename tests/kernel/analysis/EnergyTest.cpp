@@ -43,7 +43,7 @@ void shake(BlockAssembly& a, Real speed)
 	std::uniform_real_distribution<Real> v(-speed, speed);
 	for (int n = 0; n < a.nodeCount(); ++n) {
 		const Real vx = v(random), vy = v(random);
-		a.velocity[n] = { vx, vy };
+		a.state.velocity[n] = { vx, vy };
 	}
 }
 
@@ -62,7 +62,7 @@ TEST(Energy, LinearSystemBalancesToRounding)
 		addGrid(a, { 0, 0 }, 0.5, 0.4, 3, 2);
 		addGravity(a, { 2, -9.81 });
 		addTraction(a, 4, { 3e4, 1e4 });
-		const Real dt = 0.5 * stableTimeStep(a, nodalStiffness(a), a.inertia);
+		const Real dt = 0.5 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
 		a.addGroup(driven("foot", dofs(a, 1, [](const Vec2& x) { return x.y() == 0; }), 0.02, 100 * dt));
 		a.addGroup(driven("foot x", dofs(a, 0, [](const Vec2& x) { return x.y() == 0; }), 0));
 		a.addGroup(pushed("head", dofs(a, 1, [](const Vec2& x) { return x.y() == 0.4; }), -2e4, 50 * dt));
@@ -91,7 +91,7 @@ TEST(Energy, BondedBlocksBalanceToSecondOrder)
 	auto error = [](int half) {
 		BlockAssembly a = voronoi(0.5, 0.4, 3, 2, { 1e6, 0.2, 2000 }, elasticJoint(8e6, 3e6), 0.3);
 		shake(a, 0.8); // strains of v/c = 0.8/22 = 4 %
-		const Real dt = 0.5 * stableTimeStep(a, nodalStiffness(a), a.inertia) / half;
+		const Real dt = 0.5 * stableTimeStep(a, nodalStiffness(a), a.state.inertia) / half;
 		Accounts   accounts;
 		Damping    none  = damped(Damping::Kind::none);
 		const Real first = accounts.step(a, none, dt, 0);
@@ -117,7 +117,7 @@ TEST(Energy, BalanceWhileJointsBreakAndSlide)
 		joint.tension = 1e6, joint.cohesion = 2e6, joint.tanPhi = 0.8;
 		joint.cohesionResidual = 0.2e6, joint.tanPhiResidual = 0.6, joint.tanDilation = 0.1;
 		BlockAssembly a  = voronoi(0.5, 0.6, 4, 5, stone(), joint, 0.3);
-		const Real    dt = 0.4 * stableTimeStep(a, nodalStiffness(a), a.inertia) / half;
+		const Real    dt = 0.4 * stableTimeStep(a, nodalStiffness(a), a.state.inertia) / half;
 		a.addGroup(driven("foot", dofs(a, 1, [](const Vec2& x) { return x.y() == 0; }), 0));
 		a.addGroup(driven("head", dofs(a, 1, [](const Vec2& x) { return x.y() == 0.6; }), -0.5, 500 * half * dt));
 		Accounts   accounts;
@@ -147,8 +147,8 @@ TEST(Energy, PartsInClosedForm)
 	BlockAssembly a = column(2, 0.8, 0.5, 1, 2, { 20e9, 0, 2000 }, elasticJoint(100e9, 40e9), 2);
 	const Real    e = 1e-4;
 	for (int n = 0; n < a.nodeCount(); ++n) {
-		a.position[n].y() += e * a.reference[n].y() + (n >= a.firstNode[1] ? 1e-5 : 0);
-		a.velocity[n] = { 0.3, -0.4 };
+		a.position(n).y() += e * a.mesh.reference[n].y() + (n >= a.mesh.firstNode[1] ? 1e-5 : 0);
+		a.state.velocity[n] = { 0.3, -0.4 };
 	}
 	computeForces(a);
 	// strains round by 20 eps/0.25, relative to 1e-4: 2e-10; openings by 10 eps of 1e-5: 2e-10; twice that in energies
@@ -173,8 +173,8 @@ TEST(Energy, FractureAndFrictionOfOneJoint)
 	computeForces(a);
 	d.start(a);
 	auto moveTo = [&](Real un, Real us) {
-		for (int n = a.firstNode[1]; n < a.nodeCount(); ++n)
-			a.position[n] = start[n] + Vec2(-us, un); // n = (0,1), t = (-1,0)
+		for (int n = a.mesh.firstNode[1]; n < a.nodeCount(); ++n)
+			a.position(n) = start[n] + Vec2(-us, un); // n = (0,1), t = (-1,0)
 		computeForces(a);
 		d.book(a);
 	};
@@ -205,8 +205,8 @@ TEST(Energy, UnbalancedRatio)
 	for (ContactPoint& p : a.points)
 		p.sigma = 3, p.tau = -0.8;
 	a.addGroup(driven("held", { 0 }, 0));
-	a.force[0] = { 100, -0.5 }; // x is held: does not count
-	a.force[5] = { 0.2, 0.3 };
+	a.forces.nodal[0] = { 100, -0.5 }; // x is held: does not count
+	a.forces.nodal[5] = { 0.2, 0.3 };
 	EXPECT_NEAR(unbalancedRatio(a), 1.0 / (2 * 6.08), 8 * eps);
 	EXPECT_NEAR(unbalancedRatio(a, 10), 1.0 / 20, 8 * eps);
 	EXPECT_NEAR(unbalancedRatio(a, 5), 1.0 / (2 * 6.08), 8 * eps);
@@ -261,7 +261,7 @@ TEST(StabilityWatch, SeesAnUnstableRunAndKeepsTheLastGoodState)
 	EXPECT_LT(good, step);
 	EXPECT_EQ(watch.goodTime(), good * dt);
 	for (int n = 0; n < a.nodeCount(); ++n)
-		EXPECT_LT((a.position[n] - a.reference[n]).norm(), 1e-5);
+		EXPECT_LT((a.position(n) - a.mesh.reference[n]).norm(), 1e-5);
 }
 
 TEST(StabilityWatch, LetsStableRunsBe)
@@ -293,9 +293,9 @@ TEST(StabilityWatch, LetsModesNearTheLimitSwing)
 	const Real                           dt = 0.95 * 2 / modes(a, 1e-7).omega.maxCoeff();
 	std::mt19937                         random(5);
 	std::uniform_real_distribution<Real> shift(-1e-9, 1e-9);
-	a.groups[1].target = 0;
+	a.state.groups[1].target = 0;
 	for (int n = 0; n < a.nodeCount(); ++n)
-		a.position[n] += Vec2(shift(random), shift(random));
+		a.state.displacement[n] += Vec2(shift(random), shift(random));
 	for (const int first : { 0, 1, 7 }) // whatever state it begins with
 		expectSilenceFrom(a, first, dt);
 }
@@ -312,7 +312,7 @@ TEST(StabilityWatch, LetsAPlatenSwing)
 	a.addGroup(pushed("platen", dofs(a, 1, [](const Vec2& x) { return x.y() > 0; }), 0));
 	const Real dt = 0.95 * 2 / std::sqrt(20e9 / 0.025 * 0.5 / (2000 * 0.5 * 0.025 / 2));
 	for (int n = 0; n < a.nodeCount(); ++n)
-		if (a.reference[n].y() > 0) a.position[n].y() += 1e-9;
+		if (a.mesh.reference[n].y() > 0) a.position(n).y() += 1e-9;
 	for (const int first : { 0, 1, 3, 7 })
 		expectSilenceFrom(a, first, dt);
 }
@@ -323,7 +323,7 @@ TEST(StabilityWatch, NamesTheBlockThatIsNotANumber)
 	StabilityWatch watch;
 	EXPECT_EQ(watch.restore(a), -1); // nothing to put back yet
 	EXPECT_TRUE(watch.look(a, 0, 0, 0.005).stable);
-	a.velocity[a.firstNode[1] + 2].x() = std::nan("");
+	a.state.velocity[a.mesh.firstNode[1] + 2].x() = std::nan("");
 	const auto verdict                 = watch.look(a, 20, 0.1, 0.005);
 	EXPECT_FALSE(verdict.stable);
 	EXPECT_EQ(verdict.block, 1);

@@ -33,8 +33,8 @@ struct Pressed {
 	}
 	void put(Real depth)
 	{
-		for (int n = a.firstNode[1]; n < a.firstNode[2]; ++n)
-			a.position[n] = a.reference[n] - Vec2(0, depth);
+		for (int n = a.mesh.firstNode[1]; n < a.mesh.firstNode[2]; ++n)
+			a.place(n, a.mesh.reference[n] - Vec2(0, depth));
 		prepareContacts(a);
 		advanceContacts(a, 1e-9);
 		computeJointForces(a);
@@ -51,20 +51,20 @@ TEST(OverlapWatch, ComparesJointsWithTheLowerZone)
 	watch.look(a);
 	EXPECT_EQ(watch.joint.share(), 0);
 
-	a.points[2].opening = -0.012, a.points[3].opening = 0.5; // an open end does not count
+	a.state.opening[2] = -0.012, a.state.opening[3] = 0.5; // an open end does not count
 	watch.look(a);
 	EXPECT_EQ(watch.joint.block, (std::array<int, 2> { 0, 1 }));
 	EXPECT_NEAR(watch.joint.height, 0.08, 100 * eps);
 	EXPECT_NEAR(watch.joint.share(), 0.15, 1000 * eps);
 	EXPECT_NEAR(watch.mean, 0.15, 1000 * eps); // of what is closed
 	BlockAssembly b     = a;
-	b.points[0].opening = b.points[1].opening = -0.004;
+	b.state.opening[0] = b.state.opening[1] = -0.004;
 	watch.look(b);
-	EXPECT_NEAR(watch.mean, (0.15 * b.segments[1].area + 0.05 * b.segments[0].area) / (b.segments[0].area + b.segments[1].area), 1000 * eps);
+	EXPECT_NEAR(watch.mean, (0.15 * b.joints.segments[1].area + 0.05 * b.joints.segments[0].area) / (b.joints.segments[0].area + b.joints.segments[1].area), 1000 * eps);
 	watch.look(a);
 	EXPECT_EQ(&watch.thickest(), &watch.joint);
 
-	a.segments[1].area = 0; // released: its points carry nothing, what they say is not looked at
+	a.joints.segments[1].area = 0; // released: its points carry nothing, what they say is not looked at
 	watch.look(a);
 	EXPECT_EQ(watch.joint.share(), 0);
 }
@@ -74,14 +74,14 @@ TEST(OverlapWatch, EveryJointHasZonesBehind)
 	for (BlockAssembly a : { voronoi(1, 0.6, 4, 2, stone(), elasticJoint(1, 1), 0.5),
 	                         column(2, 0.4, 0.004, 2, 1, stone(), elasticJoint(1, 1)),
 	                         twoBlocks(elasticJoint(1, 1)) })
-		for (size_t i = 0; i < a.points.size(); ++i) {
+		for (size_t i = 0; i < a.state.status.size(); ++i) {
 			BlockAssembly b     = a;
-			b.points[i].opening = -1;
+			b.state.opening[i] = -1;
 			OverlapWatch watch;
 			watch.look(b);
 			EXPECT_GT(watch.joint.height, 0);
 			EXPECT_LT(watch.joint.height, 1); // no block is higher
-			EXPECT_EQ(watch.joint.block, b.segments[i / 2].block);
+			EXPECT_EQ(watch.joint.block, b.joints.segments[i / 2].block);
 		}
 }
 
@@ -122,8 +122,8 @@ TEST(OverlapWatch, ABlockInAHoleOrANotchIsNotWithinTheOther)
 	OverlapWatch watch;
 	watch.look(a);
 	EXPECT_EQ(watch.through[0], -1);
-	for (int n = a.firstNode[1]; n < a.firstNode[2]; ++n) // now into the frame
-		a.position[n] += Vec2(-0.6, 0);
+	for (int n = a.mesh.firstNode[1]; n < a.mesh.firstNode[2]; ++n) // now into the frame
+		a.state.displacement[n] += Vec2(-0.6, 0);
 	watch.look(a);
 	EXPECT_EQ(watch.through, (std::array<int, 2> { 1, 0 }));
 }
@@ -137,7 +137,7 @@ TEST(OverlapWatch, SeesAZoneThatHasTurnedInsideOut)
 	rotateAbout(a, { 0.3, 0.2 }, 2, { 1, 0 }); // turning is none of that
 	watch.look(a);
 	EXPECT_EQ(watch.inverted, -1);
-	std::swap(a.position[a.firstNode[1]], a.position[a.firstNode[1] + 1]);
+	std::swap(a.position(a.mesh.firstNode[1]), a.position(a.mesh.firstNode[1] + 1));
 	watch.look(a);
 	EXPECT_EQ(watch.inverted, 1);
 }
@@ -147,14 +147,14 @@ TEST(StabilityWatch, WarnsOnceOfThickJointsAndStopsWhereTheirMeanIsTooThick)
 	BlockAssembly  a = twoMeshes();
 	StabilityWatch watch;
 	auto           pressed = [&](Real overlap, long step) {
-                for (int n = a.firstNode[1]; n < a.firstNode[2]; ++n)
-                        a.position[n] = a.reference[n] - Vec2(0, overlap);
+                for (int n = a.mesh.firstNode[1]; n < a.mesh.firstNode[2]; ++n)
+                        a.place(n, a.mesh.reference[n] - Vec2(0, overlap));
                 computeForces(a);
                 return watch.look(a, step, step * 1e-3, 1e-3);
 	};
 	EXPECT_EQ(pressed(0.0035, 0).warning, "");
-	a.groups.push_back(driven("press", { 2 * a.firstNode[1] }, 0));
-	a.groups[0].work = a.groups[0].workTurnover = 1e30; // whoever presses does the work
+	a.state.groups.push_back(driven("press", { 2 * a.mesh.firstNode[1] }, 0));
+	a.state.groups[0].work = a.state.groups[0].workTurnover = 1e30; // whoever presses does the work
 	const auto first = pressed(0.006, 100), second = pressed(0.0075, 200), gone = pressed(0.009, 300);
 	EXPECT_TRUE(first.stable && second.stable);
 	EXPECT_NE(first.warning.find("blocks 0 and 1 overlap by 0.006"), std::string::npos) << first.warning;
@@ -179,8 +179,8 @@ TEST(StabilityWatch, StopsABondedBlockThatEntersAnother)
 			addGrid(a, { 2. * i, 0 }, 0.6, 0.2, 1, 1), addGrid(a, { 2. * i, 0.2 }, 0.6, 0.2, 1, 1);
 		bondAll(a, elasticJoint(100e9, 40e9));
 		for (int block = 1; block < a.blockCount(); block += 2)
-			for (int n = a.firstNode[block]; n < a.firstNode[block + 1]; ++n)
-				a.position[n].y() -= block == 1 ? 0.12 : 1e-4;
+			for (int n = a.mesh.firstNode[block]; n < a.mesh.firstNode[block + 1]; ++n)
+				a.position(n).y() -= block == 1 ? 0.12 : 1e-4;
 		computeForces(a);
 		const auto gone = StabilityWatch().look(a, 0, 0, 1e-6);
 		EXPECT_FALSE(gone.stable);

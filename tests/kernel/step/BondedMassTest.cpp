@@ -33,7 +33,7 @@ Real momentOfInertia(const BlockAssembly& a)
 {
 	Real sum = 0;
 	for (int n = 0; n < a.nodeCount(); ++n)
-		sum += a.mass[n] * a.position[n].squaredNorm();
+		sum += a.mesh.mass[n] * a.position(n).squaredNorm();
 	return sum;
 }
 
@@ -43,19 +43,19 @@ void toCentre(BlockAssembly& a)
 	Vec2 moment { 0, 0 };
 	Real mass = 0;
 	for (int n = 0; n < a.nodeCount(); ++n)
-		moment += a.mass[n] * a.position[n], mass += a.mass[n];
+		moment += a.mesh.mass[n] * a.position(n), mass += a.mesh.mass[n];
 	for (Vec2& x : a.position)
 		x -= moment / mass;
-	std::fill(a.velocity.begin(), a.velocity.end(), Vec2::Zero());
+	std::fill(a.state.velocity.begin(), a.state.velocity.end(), Vec2::Zero());
 }
 
 Real meanPressure(const BlockAssembly& a) // trace of the stress, by volume
 {
 	Real sum = 0;
 	for (int block = 0; block < a.blockCount(); ++block)
-		for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z) {
+		for (int z = a.mesh.firstZone[block]; z < a.mesh.firstZone[block + 1]; ++z) {
 			const ZoneStress s = cauchyStress(a, block, z);
-			sum += a.zoneVolume[z] * (s.sxx + s.syy);
+			sum += a.mesh.zoneVolume[z] * (s.sxx + s.syy);
 		}
 	return sum;
 }
@@ -76,7 +76,7 @@ TEST(BondedMass, CantileverConvergesToTheBeamWithSecondOrder)
                 a.addGroup(driven("clamp", bothAxes(a, [](const Vec2& x) { return x.x() < 1e-9; }), 0));
                 a.addGroup(driven("tip", dofs(a, 1, [&](const Vec2& x) { return x.x() > L - 1e-9; }), 1e-3));
                 elasticJump(a, 0.5, 0);
-                return a.groups[1].force / a.groups[1].travelled;
+                return a.state.groups[1].force / a.state.groups[1].travelled;
 	};
 	const Real k[4] = { stiffness(2), stiffness(4), stiffness(8), stiffness(16) };
 	const Real Eeff = E / 1.1, Geff = E / 2 / (1 + 0.5 / 5);
@@ -106,7 +106,7 @@ TEST(BondedMass, PWaveRunsThroughABarOfBlocks)
                 const Real c = std::sqrt(E / 1.25 / rho), start = 0.4 * L / c, until = 0.9 * L / c;
                 a.addGroup(driven("y", dofs(a, 1, [](const Vec2&) { return true; }), 0));
                 a.addGroup(driven("end", dofs(a, 0, [](const Vec2& x) { return x.x() < 1e-9; }), v, start));
-                const int  steps = int(until / (0.5 * stableTimeStep(a, nodalStiffness(a), a.mass))) + 1;
+                const int  steps = int(until / (0.5 * stableTimeStep(a, nodalStiffness(a), a.mesh.mass))) + 1;
                 const Real dt    = until / steps;
                 Damping    none;
                 none.kind = Damping::Kind::none;
@@ -117,8 +117,8 @@ TEST(BondedMass, PWaveRunsThroughABarOfBlocks)
                 Real squares = 0;
                 for (int block = 0; block < n; ++block) {
                         Real momentum = 0, mass = 0;
-                        for (int i = a.firstNode[block]; i < a.firstNode[block + 1]; ++i)
-                                momentum += a.mass[i] * a.velocity[i].x(), mass += a.mass[i];
+                        for (int i = a.mesh.firstNode[block]; i < a.mesh.firstNode[block + 1]; ++i)
+                                momentum += a.mesh.mass[i] * a.state.velocity[i].x(), mass += a.mesh.mass[i];
                         const Real phase = (until - dt / 2 - (block + 0.4) * s / c) / start, r = std::clamp(phase, Real(0), Real(1));
                         squares += std::pow(momentum / mass / v - r * r * (3 - 2 * r), 2) / n;
                 }
@@ -138,24 +138,24 @@ TEST(BondedMass, FragmentSpinsAThousandTurns)
 	JointParams   joint = elasticJoint(0.5e12, 0.25e12);
 	BlockAssembly a     = voronoi(1, 0.5, 10, 5, { 20e9, 0.2, 2000 }, joint, 0.4);
 	toCentre(a);
-	const Real limit = stableTimeStep(a, nodalStiffness(a), a.mass), dt = 0.5 * limit;
+	const Real limit = stableTimeStep(a, nodalStiffness(a), a.mesh.mass), dt = 0.5 * limit;
 	const int  perTurn = 1500;
 	const Real w       = 2 * M_PI / (perTurn * dt);
 	Damping    damping;
 	damping.alpha = 0.3;
 	for (int round = 0; round < 6; ++round) { // the load follows the expansion
-		a.load.resize(a.nodeCount());
+		a.supports.load.resize(a.nodeCount());
 		for (int n = 0; n < a.nodeCount(); ++n)
-			a.load[n] = a.mass[n] * w * w * a.position[n];
+			a.supports.load[n] = a.mesh.mass[n] * w * w * a.position(n);
 		ASSERT_GE(relax(a, damping, dt, 1e-8, 200000), 0);
 		toCentre(a);
 	}
-	a.load.clear();
+	a.supports.load.clear();
 	const Real expanded = meanPressure(a), virial = w * w * momentOfInertia(a);
 	EXPECT_NEAR(expanded / virial, 1, 0.04);
 
 	for (int n = 0; n < a.nodeCount(); ++n) // half a step back
-		a.velocity[n] = w * Vec2(-a.position[n].y(), a.position[n].x()) + dt / 2 * w * w * a.position[n];
+		a.state.velocity[n] = w * Vec2(-a.position(n).y(), a.position(n).x()) + dt / 2 * w * w * a.position(n);
 	damping.kind = Damping::Kind::none;
 	auto energy  = [&] { return storedEnergy(a) + kineticEnergy(a); };
 	computeForces(a);
@@ -174,10 +174,10 @@ TEST(BondedMass, FragmentSpinsAThousandTurns)
 	computeForces(a);
 	Real spin = 0;
 	for (int n = 0; n < a.nodeCount(); ++n)
-		spin += a.mass[n] * cross(a.position[n], a.velocity[n]);
+		spin += a.mesh.mass[n] * cross(a.position(n), a.state.velocity[n]);
 	const Real rate = spin / momentOfInertia(a);
 	for (int n = 0; n < a.nodeCount(); ++n)
-		a.velocity[n] -= rate * Vec2(-a.position[n].y(), a.position[n].x());
+		a.state.velocity[n] -= rate * Vec2(-a.position(n).y(), a.position(n).x());
 	damping.kind = Damping::Kind::local;
 	for (int i = 0; i < 20000; ++i) {
 		computeForces(a);
@@ -186,7 +186,7 @@ TEST(BondedMass, FragmentSpinsAThousandTurns)
 	computeForces(a);
 	Real left = 0;
 	for (int block = 0; block < a.blockCount(); ++block)
-		for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z) {
+		for (int z = a.mesh.firstZone[block]; z < a.mesh.firstZone[block + 1]; ++z) {
 			const ZoneStress s = cauchyStress(a, block, z);
 			left               = std::max({ left, std::abs(s.sxx), std::abs(s.syy), std::abs(s.sxy) });
 		}

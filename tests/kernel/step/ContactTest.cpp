@@ -17,7 +17,7 @@ Real totalArea(const std::vector<Segment>& segments)
 Vec2 host(const BlockAssembly& a, const Segment& g, int side, int k)
 {
 	const Real s = side == 0 ? g.s1[k] : g.s2[k];
-	return (1 - s) * a.position[g.node[2 * side]] + s * a.position[g.node[2 * side + 1]];
+	return (1 - s) * a.position(g.node[2 * side]) + s * a.position(g.node[2 * side + 1]);
 }
 
 void expectHostsMeet(const BlockAssembly& a, const std::vector<Segment>& segments, Real tolerance)
@@ -40,12 +40,12 @@ void disturb(BlockAssembly& a, Real amount, unsigned seed = 3)
 
 Real springEnergy(BlockAssembly& a)
 {
-	updateKinematics(a, 0, int(a.segments.size()));
+	updateKinematics(a, 0, int(a.joints.segments.size()));
 	Real sum = 0;
-	for (const Pair& pair : a.pairs)
+	for (const Pair& pair : a.joints.pairs)
 		for (int i = 2 * pair.first; i < 2 * pair.last; ++i) {
-			const JointParams& j = a.joints[&pair - a.pairs.data()];
-			sum += a.segments[i / 2].area * (j.kn * a.points[i].opening * a.points[i].opening + j.ks * a.points[i].slip * a.points[i].slip) / 2;
+			const JointParams& j = a.joints.ofPair[&pair - a.joints.pairs.data()];
+			sum += a.joints.segments[i / 2].area * (j.kn * a.state.opening[i] * a.state.opening[i] + j.ks * a.state.slip[i] * a.state.slip[i]) / 2;
 		}
 	return sum;
 }
@@ -55,9 +55,9 @@ std::vector<Vec2> jointForces(BlockAssembly& a)
 {
 	computeForces(a);
 	std::vector<Vec2> force(a.nodeCount(), Vec2::Zero());
-	for (size_t i = 0; i < a.segments.size(); ++i)
+	for (size_t i = 0; i < a.joints.segments.size(); ++i)
 		for (int k = 0; k < 4; ++k)
-			force[a.segments[i].node[k]] += a.segmentForce[i][k];
+			force[a.joints.segments[i].node[k]] += a.forces.joint[i][k];
 	return force;
 }
 
@@ -76,17 +76,17 @@ BlockAssembly emptyAssembly(Real thickness)
 TEST(ContactDetection, ConformingEdge)
 {
 	BlockAssembly a = twoBlocks(elasticJoint(1, 1), 0.7);
-	ASSERT_EQ(a.segments.size(), 1u);
-	const Segment& g = a.segments[0];
+	ASSERT_EQ(a.joints.segments.size(), 1u);
+	const Segment& g = a.joints.segments[0];
 	EXPECT_EQ(g.block, (std::array<int, 2> { 0, 1 }));
 	EXPECT_EQ(g.node, (std::array<int, 4> { 1, 2, 9, 5 })); // (1,0) -> (1.3,0.8), and the same the other way on block 1
 	EXPECT_EQ(g.s1, (std::array<Real, 2> { 0, 1 }));
 	EXPECT_EQ(g.s2, (std::array<Real, 2> { 1, 0 }));
 	EXPECT_NEAR(2 * g.area, 0.7 * std::hypot(0.3, 0.8), 8 * eps); // some 8 roundings of a number below 1
-	ASSERT_EQ(a.pairs.size(), 1u);
-	EXPECT_EQ(a.pairs[0].first, 0);
-	EXPECT_EQ(a.pairs[0].last, 1);
-	EXPECT_EQ(a.sides, (std::vector<int> { 0, 1 }));
+	ASSERT_EQ(a.joints.pairs.size(), 1u);
+	EXPECT_EQ(a.joints.pairs[0].first, 0);
+	EXPECT_EQ(a.joints.pairs[0].last, 1);
+	EXPECT_EQ(a.joints.sides, (std::vector<int> { 0, 1 }));
 }
 
 TEST(ContactDetection, AreasAddUpOnUnequalMeshes)
@@ -135,8 +135,8 @@ TEST(ContactDetection, SurfaceOfATessellation)
 	// Every edge of every cell is either the outline's or a joint: joints = (sum of perimeters - outline) / 2.
 	BlockAssembly a          = voronoi(1.7, 0.9, 6, 4, stone(), elasticJoint(1, 1), 0.4);
 	Real          perimeters = 0;
-	for (const auto& e : a.edgeNodes)
-		perimeters += (a.position[e[1]] - a.position[e[0]]).norm();
+	for (const auto& e : a.mesh.edgeNodes)
+		perimeters += (a.position(e[1]) - a.position(e[0])).norm();
 	const auto found = detectSegments(a);
 	// some 60 joints of length below 0.4, each with 8 roundings, and as many in the sum of perimeters
 	EXPECT_NEAR(totalArea(found), (perimeters - 2 * (1.7 + 0.9)) / 2 * 0.4, 1000 * eps);
@@ -166,18 +166,18 @@ TEST(ContactDetection, OrderOfBlocksOnlyChangesTheSides)
 	bondAll(a, elasticJoint(5, 3));
 	bondAll(b, elasticJoint(5, 3));
 	ASSERT_EQ(b.segments.size(), 1u);
-	EXPECT_EQ(b.segments[0].area, a.segments[0].area);
+	EXPECT_EQ(b.segments[0].area, a.joints.segments[0].area);
 	// The same displacements, node by node: the same opening and slip at the same place. Terms of order 1, some 20 roundings.
 	disturb(a, 0.1);
 	for (int n = 0; n < 5; ++n)
-		b.position[4 + n] = a.position[n];
+		b.position[4 + n] = a.position(n);
 	for (int n = 0; n < 4; ++n)
-		b.position[n] = a.position[5 + n];
+		b.position[n] = a.position(5 + n);
 	computeForces(a);
 	computeForces(b);
 	for (int k : { 0, 1 }) { // points run along the first block's edge, so the other way round here
-		EXPECT_NEAR(b.points[1 - k].opening, a.points[k].opening, 20 * eps);
-		EXPECT_NEAR(b.points[1 - k].slip, a.points[k].slip, 20 * eps);
+		EXPECT_NEAR(b.points[1 - k].opening, a.state.opening[k], 20 * eps);
+		EXPECT_NEAR(b.points[1 - k].slip, a.state.slip[k], 20 * eps);
 	}
 	const auto fa = jointForces(a), fb = jointForces(b);
 	for (int n = 0; n < 5; ++n)
@@ -212,7 +212,7 @@ TEST(ContactKinematics, OpeningAndSlipInPlainNumbers)
 	// Lower block's top edge y = 0.5 faces up: n = (0, 1), and t, n turned by +90 degrees, = (-1, 0). The upper block moves by
 	// (0.02, 0.03): opening 0.03, slip -0.02 at both points. Positions of order 1, a handful of roundings.
 	BlockAssembly a = column(2, 0.8, 0.5, 1, 1, stone(), elasticJoint(100, 40), 2);
-	rotateAbout(a, { 0, 0 }, 0, { 0.02, 0.03 }, a.firstNode[1]);
+	rotateAbout(a, { 0, 0 }, 0, { 0.02, 0.03 }, a.mesh.firstNode[1]);
 	computeForces(a);
 	for (const ContactPoint& p : a.points) {
 		EXPECT_NEAR(p.opening, 0.03, 10 * eps);
@@ -223,7 +223,7 @@ TEST(ContactKinematics, OpeningAndSlipInPlainNumbers)
 	// On the lower block: A (sigma n + tau t) = 1.6 (3 (0,1) - 0.8 (-1,0)) = (1.28, 4.8), pulled after the upper one.
 	const auto f   = jointForces(a);
 	Vec2       sum = Vec2::Zero();
-	for (int n = 0; n < a.firstNode[1]; ++n)
+	for (int n = 0; n < a.mesh.firstNode[1]; ++n)
 		sum += f[n];
 	EXPECT_NEAR(sum.x(), 1.28, 1600 * eps);
 	EXPECT_NEAR(sum.y(), 4.8, 1600 * eps);
@@ -244,18 +244,18 @@ TEST(ContactKinematics, ForcesAreTheGradientOfTheSprings)
 	for (ContactPoint& p : a.points) // as if bonded across a wide, skew gap
 		p.bondOpening = 0.03, p.bondSlip = -0.05;
 	disturb(a, 0.12);
-	rotateAbout(a, { 1, 1 }, 0.8, { 0.05, -0.1 }, a.firstNode[1], a.firstNode[2]);
+	rotateAbout(a, { 1, 1 }, 0.8, { 0.05, -0.1 }, a.mesh.firstNode[1], a.mesh.firstNode[2]);
 	rotateAbout(a, { 1, 1 }, 0.6, { 0, 0 });
 	const auto f = jointForces(a);
 	const Real d = 1e-6;
 	for (int n = 0; n < a.nodeCount(); ++n)
 		for (int axis : { 0, 1 }) {
-			const Real at       = a.position[n][axis];
-			a.position[n][axis] = at + d;
+			const Real at       = a.position(n)[axis];
+			a.position(n)[axis] = at + d;
 			const Real ahead    = springEnergy(a);
-			a.position[n][axis] = at - d;
+			a.position(n)[axis] = at - d;
 			const Real behind   = springEnergy(a);
-			a.position[n][axis] = at;
+			a.position(n)[axis] = at;
 			EXPECT_NEAR(f[n][axis], -(ahead - behind) / (2 * d), 1.3e-8) << "node " << n << " axis " << axis;
 		}
 }
@@ -273,13 +273,13 @@ TEST(ContactKinematics, ForceAndMomentVanishHoweverFarApart)
 		for (ContactPoint& p : a.points)
 			p.bondOpening = 0.03, p.bondSlip = -0.05;
 		disturb(a, 0.1);
-		rotateAbout(a, { 0.5, 0.5 }, angle, { 1.1, 2.0 }, a.firstNode[1]);
+		rotateAbout(a, { 0.5, 0.5 }, angle, { 1.1, 2.0 }, a.mesh.firstNode[1]);
 		const auto f      = jointForces(a);
 		Vec2       force  = Vec2::Zero();
 		Real       moment = 0, largest = 0;
 		for (int n = 0; n < a.nodeCount(); ++n) {
 			force += f[n];
-			moment += cross(a.position[n], f[n]);
+			moment += cross(a.position(n), f[n]);
 			largest = std::max(largest, f[n].norm());
 		}
 		EXPECT_GT(largest, 1);
@@ -310,8 +310,8 @@ TEST(ContactKinematics, BondedAcrossAGapTheGapIsNoOpening)
 	addFan(a, { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 0.9 } });
 	addFan(a, { { 1.0004, 0.1 }, { 2, 0 }, { 2, 1 }, { 1.0002, 0.8 } });
 	a.bond(detectSegments(a, 1e-3));
-	ASSERT_EQ(a.segments.size(), 1u);
-	EXPECT_NEAR(a.points[0].bondOpening, 4e-4, 1e-4 * 0.5); // they are not parallel: the normal bisects
+	ASSERT_EQ(a.joints.segments.size(), 1u);
+	EXPECT_NEAR(a.joints.bondOpening[0], 4e-4, 1e-4 * 0.5); // they are not parallel: the normal bisects
 	rotateAbout(a, { 0.3, -2 }, 1.9, { 5, -3 });
 	updateKinematics(a, 0, 1);
 	for (const ContactPoint& p : a.points) {
@@ -325,13 +325,13 @@ TEST(ContactKinematics, FrameBisectsTheEdges)
 	// Block 1 turns by 0.4 about the joint's middle: the frame turns by 0.2. At the ends the edges are 2 (L/2) sin(0.2) apart
 	// along the bisecting normal: opening +-L sin(0.2); slip 0.
 	BlockAssembly a = column(2, 0.8, 0.5, 1, 1, stone(), elasticJoint(1, 1));
-	rotateAbout(a, { 0.4, 0.5 }, 0.4, { 0, 0 }, a.firstNode[1]);
+	rotateAbout(a, { 0.4, 0.5 }, 0.4, { 0, 0 }, a.mesh.firstNode[1]);
 	updateKinematics(a, 0, 1);
 	EXPECT_NEAR(a.frames[0].nx, -std::sin(0.2), 10 * eps);
 	EXPECT_NEAR(a.frames[0].ny, std::cos(0.2), 10 * eps);
 	for (int k : { 0, 1 }) {
-		const Real arm = (host(a, a.segments[0], 0, k).x() - 0.4);
-		EXPECT_NEAR(a.points[k].opening, 2 * arm * std::sin(0.2), 10 * eps);
-		EXPECT_NEAR(a.points[k].slip, 0, 10 * eps);
+		const Real arm = (host(a, a.joints.segments[0], 0, k).x() - 0.4);
+		EXPECT_NEAR(a.state.opening[k], 2 * arm * std::sin(0.2), 10 * eps);
+		EXPECT_NEAR(a.state.slip[k], 0, 10 * eps);
 	}
 }

@@ -52,8 +52,8 @@ void computeAllForces(BlockAssembly& a, const JointParams& joint, Real dt, int t
 	prepareContacts(a);
 	for (int i : a.contacts.order)
 		if (!(a.contacts.all[i].joint.kn > 0)) setContactJoint(a, i, joint);
-	updateKinematics(a, 0, int(a.segments.size()), Which::unreleased);
-	for (int pair = 0; pair < int(a.pairs.size()); ++pair) {
+	updateKinematics(a, 0, int(a.joints.segments.size()), Which::unreleased);
+	for (int pair = 0; pair < int(a.joints.pairs.size()); ++pair) {
 		advanceJoints(a, pair, advance, Which::unreleased);
 		if (!a.contacts.releasable.empty()) watchForRelease(a, pair);
 	}
@@ -103,7 +103,7 @@ struct Simulation {
 					b.contacts.all.push_back(c);
 					b.contacts.order.push_back(int(b.contacts.all.size()) - 1);
 				}
-		return stableTimeStep(b, nodalStiffness(b), b.mass);
+		return stableTimeStep(b, nodalStiffness(b), b.mesh.mass);
 	}
 	template <class Each> void steps(long count, const Each& each)
 	{
@@ -112,7 +112,7 @@ struct Simulation {
 			const BlockAssembly* before = &a;
 			const Real           stored = zoneEnergy(*before) + jointEnergy(*before), loads = loadWork(*before);
 			for (int n = 0; n < a.nodeCount(); ++n) // blocks without mass that a test moves
-				if (a.mass[n] == 0) a.velocity[n] = rigidVelocity(n);
+				if (a.mesh.mass[n] == 0) a.state.velocity[n] = rigidVelocity(n);
 			work = integrate(a, damping, dt, step * dt, true, threads);
 			each(stored + work.kinetic - loads);
 		}
@@ -137,22 +137,22 @@ Vec2 contactForce(const BlockAssembly& a, int block)
 void moveBlock(BlockAssembly& a, int block, const Vec2& shift, Real angle = 0)
 {
 	const Vec2 centre = a.centroid(block);
-	rotateAbout(a, centre, angle, shift, a.firstNode[block], a.firstNode[block + 1]);
+	rotateAbout(a, centre, angle, shift, a.mesh.firstNode[block], a.mesh.firstNode[block + 1]);
 }
 
 void setVelocity(BlockAssembly& a, int block, const Vec2& v, Real spin = 0)
 {
 	const Vec2 centre = a.centroid(block);
-	for (int n = a.firstNode[block]; n < a.firstNode[block + 1]; ++n)
-		a.velocity[n] = v + spin * Vec2(-(a.position[n] - centre).y(), (a.position[n] - centre).x());
+	for (int n = a.mesh.firstNode[block]; n < a.mesh.firstNode[block + 1]; ++n)
+		a.state.velocity[n] = v + spin * Vec2(-(a.position(n) - centre).y(), (a.position(n) - centre).x());
 }
 
 Vec2 meanVelocity(const BlockAssembly& a, int block)
 {
 	Vec2 p = Vec2::Zero();
 	Real m = 0;
-	for (int n = a.firstNode[block]; n < a.firstNode[block + 1]; ++n)
-		p += a.mass[n] * a.velocity[n], m += a.mass[n];
+	for (int n = a.mesh.firstNode[block]; n < a.mesh.firstNode[block + 1]; ++n)
+		p += a.mesh.mass[n] * a.state.velocity[n], m += a.mesh.mass[n];
 	return p / m;
 }
 
@@ -244,8 +244,8 @@ TEST(FreeContacts, PairsAreFoundInTimeAndForgottenWhenFar)
 	Real lowest = 1, before = 1;
 	run.steps(20000, [&](Real) {
 		Real low = 1;
-		for (int n = a.firstNode[1]; n < a.firstNode[2]; ++n)
-			low = std::min(low, a.position[n].y());
+		for (int n = a.mesh.firstNode[1]; n < a.mesh.firstNode[2]; ++n)
+			low = std::min(low, a.position(n).y());
 		if (before < -1e-6) {
 			ASSERT_GT(contactForce(a, 1).y(), 0);
 		}
@@ -265,11 +265,11 @@ TEST(FreeContacts, ConformingJointGivesThePointLaw)
 	// Two blocks pressed together and sheared, once as a joint of point contacts without strength, once as free contact.
 	// Compressed by un/L ~ 1e-6 and tilted as little: what differs is of the order of these.
 	auto pushed = [](BlockAssembly& a) {
-		for (int n = a.firstNode[1]; n < a.nodeCount(); ++n) {
+		for (int n = a.mesh.firstNode[1]; n < a.nodeCount(); ++n) {
 			const Vec2 along(0.3, 0.8), normal(0.8, -0.3); // of the common edge, n out of the first block
-			a.position[n] += -1e-6 * normal / normal.norm() + 3e-7 * along / along.norm();
+			a.state.displacement[n] += -1e-6 * normal / normal.norm() + 3e-7 * along / along.norm();
 		}
-		rotateAbout(a, { 1, 0 }, 2e-7, { 0, 0 }, a.firstNode[1]);
+		rotateAbout(a, { 1, 0 }, 2e-7, { 0, 0 }, a.mesh.firstNode[1]);
 	};
 	const JointParams joint  = frictional(1e9, 4e8, 30 * degree);
 	BlockAssembly     bonded = twoBlocks(joint), free = bonded;
@@ -283,22 +283,22 @@ TEST(FreeContacts, ConformingJointGivesThePointLaw)
 	prepareContacts(free);
 	setContactJoint(free, 0, joint);
 	for (int n = 0; n < free.nodeCount(); ++n)
-		free.velocity[n] = at.position[n] - bonded.position[n];
+		free.velocity[n] = at.position(n) - bonded.position(n);
 	pushed(bonded), pushed(free);
-	const auto zero = [](BlockAssembly& a) { std::fill(a.force.begin(), a.force.end(), Vec2::Zero()); };
+	const auto zero = [](BlockAssembly& a) { std::fill(a.forces.nodal.begin(), a.forces.nodal.end(), Vec2::Zero()); };
 	updateKinematics(bonded, 0, 1);
 	advanceJoints(bonded, 0, advance);
 	computeJointForces(bonded);
 	zero(bonded), zero(free);
 	for (int c = 0; c < 4; ++c)
-		bonded.force[bonded.segments[0].node[c]] += bonded.segmentForce[0][c];
+		bonded.forces.nodal[bonded.joints.segments[0].node[c]] += bonded.forces.joint[0][c];
 	advanceContacts(free, 1);
 	gatherContactForces(free, 0, free.force.data());
 	gatherContactForces(free, 1, free.force.data());
 	const Real scale = largestForce(bonded);
 	EXPECT_GT(scale, 100);
 	for (int n = 0; n < free.nodeCount(); ++n)
-		EXPECT_LT((bonded.force[n] - free.force[n]).norm(), 1e-5 * scale) << n;
+		EXPECT_LT((bonded.forces.nodal[n] - free.force[n]).norm(), 1e-5 * scale) << n;
 }
 
 namespace {
@@ -308,8 +308,8 @@ const Vec2 along = Vec2(0.3, 0.8).normalized(), normal(along.y(), -along.x());
 
 void moveSecond(BlockAssembly& a, const Vec2& u)
 {
-	for (int n = a.firstNode[1]; n < a.nodeCount(); ++n)
-		a.position[n] += u, a.velocity[n] = u;
+	for (int n = a.mesh.firstNode[1]; n < a.nodeCount(); ++n)
+		a.state.displacement[n] += u, a.state.velocity[n] = u;
 }
 
 /// Slips of 4e-7 m, with the joint's law alone.
@@ -326,11 +326,11 @@ void slideSecond(BlockAssembly& a, int steps)
 std::vector<Vec2> forcesAtRest(BlockAssembly& a)
 {
 	watchForRelease(a, 0);
-	for (Vec2& v : a.velocity)
+	for (Vec2& v : a.state.velocity)
 		v.setZero();
 	computeJointForces(a);
 	gatherForces(a);
-	return a.force;
+	return a.forces.nodal;
 }
 
 } // namespace
@@ -347,20 +347,20 @@ TEST(FreeContacts, BrokenSegmentsAreReleasedWithoutAJump)
 	move(-1e-6 * normal);
 	computeAllForces(a, joint, 1, 1, false);
 	EXPECT_TRUE(a.contacts.order.empty());
-	EXPECT_FALSE(a.segments[0].released());
+	EXPECT_FALSE(a.joints.segments[0].released());
 	slideSecond(a, 20);
-	EXPECT_EQ(a.points[0].joint.status, Joint::brokenInShear);
-	EXPECT_NEAR(a.points[0].tau, 500 + 0.5 * 1000, 1);
+	EXPECT_EQ(a.state.status[0], Joint::brokenInShear);
+	EXPECT_NEAR(a.state.tau[0], 500 + 0.5 * 1000, 1);
 	const auto before = forcesAtRest(a);
 	const Real energy = jointEnergy(a), scale = largestForce(a);
 	computeAllForces(a, joint, 1, 1, false);
 	ASSERT_EQ(a.contacts.order.size(), 1u);
-	EXPECT_TRUE(a.segments[0].released());
-	EXPECT_EQ(a.points[0].tau, 0); // what it carried is the free pair's
+	EXPECT_TRUE(a.joints.segments[0].released());
+	EXPECT_EQ(a.state.tau[0], 0); // what it carried is the free pair's
 	for (int n = 0; n < a.nodeCount(); ++n)
-		EXPECT_LT((a.force[n] - before[n]).norm(), 1e-5 * scale);
+		EXPECT_LT((a.forces.nodal[n] - before[n]).norm(), 1e-5 * scale);
 	EXPECT_NEAR(jointEnergy(a), energy, 1e-5 * energy);
-	EXPECT_EQ(a.segmentForce[0][0].norm(), 0);
+	EXPECT_EQ(a.forces.joint[0][0].norm(), 0);
 	// it goes on sliding at its residual strength
 	for (int i = 0; i < 5; ++i)
 		move(4e-7 * along), computeAllForces(a, joint, 1, 1, false);
@@ -380,16 +380,16 @@ TEST(FreeContacts, DilatedJointsAreReleasedWithoutAJump)
 	move(-1e-6 * normal);
 	for (int i = 0; i < 5; ++i)
 		move(4e-7 * along), computeAllForces(a, joint, 1, 1, false);
-	EXPECT_NE(a.points[0].joint.status, Joint::intact);
-	EXPECT_FALSE(a.segments[0].released()); // it still dilates
+	EXPECT_NE(a.state.status[0], Joint::intact);
+	EXPECT_FALSE(a.joints.segments[0].released()); // it still dilates
 	slideSecond(a, 20);
-	EXPECT_NEAR(a.points[0].sigma, -1e9 * (1e-6 + 0.2 * 2e-6), 1);
+	EXPECT_NEAR(a.state.sigma[0], -1e9 * (1e-6 + 0.2 * 2e-6), 1);
 	const auto before = forcesAtRest(a);
 	const Real energy = jointEnergy(a), scale = largestForce(a);
 	computeAllForces(a, joint, 1, 1, false);
-	EXPECT_TRUE(a.segments[0].released());
+	EXPECT_TRUE(a.joints.segments[0].released());
 	for (int n = 0; n < a.nodeCount(); ++n)
-		EXPECT_LT((a.force[n] - before[n]).norm(), 3e-5 * scale); // it has slid by 1e-5 of its length
+		EXPECT_LT((a.forces.nodal[n] - before[n]).norm(), 3e-5 * scale); // it has slid by 1e-5 of its length
 	EXPECT_NEAR(jointEnergy(a), energy, 3e-5 * energy);
 	// apart by less than the asperities are high they still touch; farther they do not
 	move(1.2e-6 * normal), computeAllForces(a, joint, 0, 1, false);
@@ -399,10 +399,10 @@ TEST(FreeContacts, DilatedJointsAreReleasedWithoutAJump)
 	// without a limit slip it dilates for a quarter of its length, 0.85 m
 	joint.dilationLimitSlip  = std::numeric_limits<Real>::max();
 	BlockAssembly b          = twoBlocks(joint);
-	b.points[0].joint.status = b.points[1].joint.status = Joint::brokenInShear;
-	b.points[0].sigma = b.points[1].sigma = -1;
+	b.state.status[0] = b.state.status[1] = Joint::brokenInShear;
+	b.state.sigma[0] = b.state.sigma[1] = -1;
 	for (Real slip : { 0.21, 0.22 }) {
-		b.points[0].joint.slipPlastic = b.points[1].joint.slipPlastic = slip;
+		b.state.slipPlastic[0] = b.state.slipPlastic[1] = slip;
 		enableRelease(b);
 		b.contacts.releasable[0] = false;
 		watchForRelease(b, 0);
@@ -451,26 +451,26 @@ TEST(FreeContacts, RaisedEdgesHaveThePotentialsForces)
 	Real          scale = 0, moment = 0;
 	Vec2          sum = Vec2::Zero();
 	for (int n = 0; n < a.nodeCount(); ++n)
-		scale = std::max(scale, normal[n].norm()), sum += normal[n], moment += cross(a.position[n], normal[n]);
+		scale = std::max(scale, normal[n].norm()), sum += normal[n], moment += cross(a.position(n), normal[n]);
 	EXPECT_GT(scale, 1e5);
 	EXPECT_LT(sum.norm() + std::abs(moment), 1e-12 * scale);
 	const Real h = 1e-7;
 	for (int n = 0; n < a.nodeCount(); ++n)
 		for (int axis : { 0, 1 }) {
 			BlockAssembly more = a, less = a;
-			more.position[n][axis] += h, less.position[n][axis] -= h;
+			more.position(n)[axis] += h, less.position[n][axis] -= h;
 			EXPECT_NEAR(normal[n][axis], (energy(less) - energy(more)) / (2 * h), 1e-6 * scale) << n;
 		}
 
 	BlockAssembly rough                        = a;
 	rough.contacts.all[0].joint.tanPhiResidual = 1e9;
-	for (Vec2& v : rough.velocity)
+	for (Vec2& v : rough.state.velocity)
 		v = Vec2(shift(random), shift(random));
 	const Real dt    = 1e-3;
 	const auto all   = forces(rough, dt);
 	Real       taken = 0, held = 0;
 	for (int n = 0; n < a.nodeCount(); ++n)
-		taken += dt * (all[n] - normal[n]).dot(rough.velocity[n]);
+		taken += dt * (all[n] - normal[n]).dot(rough.state.velocity[n]);
 	for (const EdgePair& e : rough.contacts.all[0].edges)
 		held += joint.ks * e.area * (e.slip[0] * e.slip[0] + e.slip[1] * e.slip[1]);
 	EXPECT_GT(held, 0);
@@ -555,9 +555,9 @@ TEST(FreeContacts, MomentaAreKept)
 	auto momenta = [&](Vec2& p, Real& L, Real& scale) { // positions half a step back, at the time of the velocities; x cross v is the same
 		p.setZero(), L = scale = 0;
 		for (int n = 0; n < a.nodeCount(); ++n) {
-			p += a.mass[n] * a.velocity[n];
-			L += a.mass[n] * cross(a.position[n], a.velocity[n]);
-			scale += a.mass[n] * a.velocity[n].norm();
+			p += a.mesh.mass[n] * a.state.velocity[n];
+			L += a.mesh.mass[n] * cross(a.position(n), a.state.velocity[n]);
+			scale += a.mesh.mass[n] * a.state.velocity[n].norm();
 		}
 	};
 	Vec2 p0, p1;
@@ -583,8 +583,8 @@ Real roughness(const BlockAssembly& start, const std::function<Vec2(Real)>& path
 	Real          jump = 0, largest = 0;
 	for (int i = 0; i <= count; ++i) {
 		const Real s = Real(i) / count;
-		for (int n = a.firstNode[1]; n < a.firstNode[2]; ++n)
-			a.position[n] = start.position[n];
+		for (int n = a.mesh.firstNode[1]; n < a.mesh.firstNode[2]; ++n)
+			a.place(n, start.position(n));
 		moveBlock(a, 1, path(s), turn * s);
 		computeAllForces(a, frictional(1e6, 1e6, 0), 0);
 		const Vec2 f = contactForce(a, 1);
@@ -653,19 +653,19 @@ TEST(FreeContacts, FlatFloorFriction)
 		const int mover = addRigid(a, box(-2, 0, 0.6, 0.8));
 		moveBlock(a, mover, { 0, 0 }, c.tilt);
 		Real low = 1;
-		for (int n = a.firstNode[mover]; n < a.firstNode[mover + 1]; ++n)
-			low = std::min(low, a.position[n].y());
+		for (int n = a.mesh.firstNode[mover]; n < a.mesh.firstNode[mover + 1]; ++n)
+			low = std::min(low, a.position(n).y());
 		const Real d = 5e-5, dt = 1e-3;
 		moveBlock(a, mover, { 0, -low - d });
 		const JointParams joint = frictional(1e6, 5e5, 35 * degree);
 		Real              worst = 0;
 		Vec2              sum   = Vec2::Zero();
-		for (int n = a.firstNode[mover]; n < a.firstNode[mover + 1]; ++n)
-			a.velocity[n] = { 0.02, 0 };
+		for (int n = a.mesh.firstNode[mover]; n < a.mesh.firstNode[mover + 1]; ++n)
+			a.state.velocity[n] = { 0.02, 0 };
 		for (int i = 0; i < 175000; ++i) {
 			computeAllForces(a, joint, dt, 1, i % 50 == 0);
-			for (int n = a.firstNode[mover]; n < a.firstNode[mover + 1]; ++n)
-				a.position[n] += dt * a.velocity[n];
+			for (int n = a.mesh.firstNode[mover]; n < a.mesh.firstNode[mover + 1]; ++n)
+				a.state.displacement[n] += dt * a.state.velocity[n];
 			if (i < 50) continue; // until friction is built up: mu kn d/ks = 7e-5 m
 			const Vec2 f = contactForce(a, mover);
 			worst        = std::max(worst, std::abs(-f.x() / (joint.tanPhi * f.y()) - 1));
@@ -700,7 +700,7 @@ TEST(FreeContacts, InclineHoldsAndLetsGo)
 		const int  mover = addGrid(a, { 0.05, 0 }, 1, 0.4, 3, 1);
 		Simulation run(a, frictional(1e8, 1e8, phi), 0.4, 0.3);
 		auto       tilt = [&](Real slope) {
-                        std::fill(a.load.begin(), a.load.end(), Vec2::Zero());
+                        std::fill(a.supports.load.begin(), a.supports.load.end(), Vec2::Zero());
                         addGravity(a, { -g * std::sin(slope), -g * std::cos(slope) });
 		};
 		tilt(0);
@@ -735,9 +735,9 @@ TEST(FreeContacts, BoxTopplesOverItsCorner)
 		Simulation run(a, frictional(2e8, 2e8, 60 * degree), 0.4, 0.5);
 		addGravity(a, { 0, -g });
 		run.steps(4000);
-		std::fill(a.load.begin(), a.load.end(), Vec2::Zero());
+		std::fill(a.supports.load.begin(), a.supports.load.end(), Vec2::Zero());
 		for (int i = 1; i <= 20; ++i) { // tilt it gradually
-			std::fill(a.load.begin(), a.load.end(), Vec2::Zero());
+			std::fill(a.supports.load.begin(), a.supports.load.end(), Vec2::Zero());
 			addGravity(a, { -g * std::sin(slope * i / 20), -g * std::cos(slope * i / 20) });
 			run.steps(500);
 		}
@@ -772,8 +772,8 @@ TEST(FreeContacts, SlidesAcrossUnevenBlocksAtConstantForce)
 	Simulation run(a, frictional(2e7, 1e7, std::atan(0.4)), 0.4, 0.2);
 	run.steps(4000);
 	std::vector<int> right;
-	for (int n = a.firstNode[floors]; n < a.firstNode[floors + 1]; ++n)
-		if (a.reference[n].x() > 1.29 && a.reference[n].y() < 0.2) right.push_back(2 * n);
+	for (int n = a.mesh.firstNode[floors]; n < a.mesh.firstNode[floors + 1]; ++n)
+		if (a.mesh.reference[n].x() > 1.29 && a.mesh.reference[n].y() < 0.2) right.push_back(2 * n);
 	a.addGroup(driven("pull", right, 0.3, 0.2));
 	Vec2 sum  = Vec2::Zero();
 	long from = run.step + long(0.5 / run.dt), count = 0;
@@ -807,13 +807,13 @@ TEST(FreeContacts, TornApartAndPushedTogetherAgain)
 	for (const ContactPoint& p : a.points)
 		EXPECT_EQ(p.joint.status, Joint::brokenInTension);
 	EXPECT_EQ(contactForce(a, 1).norm(), 0);
-	a.groups[vertical].target = 0, a.groups[sideways].target = 1;
+	a.state.groups[vertical].target = 0, a.state.groups[sideways].target = 1;
 	run.steps(long(0.3 / run.dt)); // 0.3 m to the right
-	a.groups[sideways].target = 0, a.groups[vertical].target = -0.05;
+	a.state.groups[sideways].target = 0, a.state.groups[vertical].target = -0.05;
 	Real touched = 0;
 	while (contactForce(a, 1).y() < 5e4 && run.step * run.dt < 1) {
 		run.steps(10);
-		if (touched == 0 && contactForce(a, 1).y() > 0) touched = a.groups[vertical].travelled;
+		if (touched == 0 && contactForce(a, 1).y() > 0) touched = a.state.groups[vertical].travelled;
 	}
 	EXPECT_NEAR(touched, 0, 20 * run.dt * 0.05 + 2e-4); // the plates' own strain
 	Real area = 0;
@@ -821,7 +821,7 @@ TEST(FreeContacts, TornApartAndPushedTogetherAgain)
 		for (const EdgePair& e : a.contacts.all[i].edges)
 			area += e.active() ? 2 * e.area : 0;
 	EXPECT_NEAR(area, 0.7, 0.002);
-	a.groups[vertical].target = 0, a.groups[sideways].target = 0.02;
+	a.state.groups[vertical].target = 0, a.state.groups[sideways].target = 0.02;
 	run.steps(long(0.1 / run.dt));
 	const Vec2 f = contactForce(a, 1);
 	EXPECT_NEAR(-f.x() / f.y(), 0.3, 0.003);
@@ -835,29 +835,29 @@ TEST(FreeContacts, ReleasedAndIntactSegmentsShareAnInterface)
 	BlockAssembly a      = scene(1e9);
 	addGrid(a, { 0, 0 }, 1.2, 0.5, 3, 1), addGrid(a, { 0, 0.5 }, 1.2, 0.5, 3, 1);
 	bondAll(a, joint);
-	ASSERT_EQ(a.segments.size(), 3u);
-	for (int n = a.firstNode[1]; n < a.nodeCount(); ++n)
-		a.position[n].y() -= 1e-7;
+	ASSERT_EQ(a.joints.segments.size(), 3u);
+	for (int n = a.mesh.firstNode[1]; n < a.nodeCount(); ++n)
+		a.position(n).y() -= 1e-7;
 	enableRelease(a);
 	updateKinematics(a, 0, 3);
 	advanceJoints(a, 0, advance);
 	computeJointForces(a);
 	gatherForces(a);
-	const auto before = a.force;
+	const auto before = a.forces.nodal;
 	for (int i : { 2, 3 })
-		a.points[i].joint.status = Joint::brokenInShear;
+		a.state.status[i] = Joint::brokenInShear;
 	watchForRelease(a, 0);
 	computeAllForces(a, joint, 0, 1, true);
 	ASSERT_EQ(a.contacts.order.size(), 1u);
 	for (int s : { 0, 1, 2 })
-		EXPECT_EQ(a.segments[s].released(), s == 1);
+		EXPECT_EQ(a.joints.segments[s].released(), s == 1);
 	int active = 0;
 	for (const EdgePair& e : a.contacts.all[0].edges)
 		active += e.active();
 	EXPECT_GE(active, 1);
 	const Real scale = largestForce(a);
 	for (int n = 0; n < a.nodeCount(); ++n)
-		EXPECT_LT((a.force[n] - before[n]).norm(), 1e-5 * scale);
+		EXPECT_LT((a.forces.nodal[n] - before[n]).norm(), 1e-5 * scale);
 }
 
 TEST(FreeContacts, DryStackRests)
@@ -876,7 +876,7 @@ TEST(FreeContacts, DryStackRests)
 	run.steps(1000000);
 	Real moved = 0;
 	for (int n = 0; n < a.nodeCount(); ++n)
-		moved = std::max(moved, (a.position[n] - start[n]).norm());
+		moved = std::max(moved, (a.position(n) - start[n]).norm());
 	const Real settled = 2000 * 9.81 / 1e9; // weight of the stack / kn: 2e-5 m
 	std::printf("stack: moved %.1e m in 1e6 steps, contacts are compressed by %.1e m\n", moved, settled);
 	EXPECT_LT(moved, 1e-3 * settled);
@@ -903,8 +903,8 @@ BlockAssembly heap(int count)
 void expectSameBits(const BlockAssembly& a, const BlockAssembly& b)
 {
 	for (int n = 0; n < a.nodeCount(); ++n) {
-		ASSERT_EQ(a.position[n], b.position[n]) << n;
-		ASSERT_EQ(a.force[n], b.force[n]) << n;
+		ASSERT_EQ(a.position(n), b.position(n)) << n;
+		ASSERT_EQ(a.forces.nodal[n], b.forces.nodal[n]) << n;
 	}
 }
 
@@ -1076,7 +1076,7 @@ Stress stress(int count, int steps, unsigned seed)
 		addFan(a, second);
 		Simulation run(a, frictional(1e6, 5e5, (pose % 3) * 15 * degree), 0.5);
 		for (int b : { 0, 1 })
-			if (a.firstZone[b] < a.firstZone[b + 1]) setVelocity(a, b, 0.5 * Vec2(u(random), u(random)) + (b ? -0.3 : 0.3) * apart, u(random));
+			if (a.mesh.firstZone[b] < a.mesh.firstZone[b + 1]) setVelocity(a, b, 0.5 * Vec2(u(random), u(random)) + (b ? -0.3 : 0.3) * apart, u(random));
 		Real start = 0, most = 0, imbalance = 0;
 		bool touched = false;
 		run.steps(steps, [&](Real energy) {
@@ -1129,7 +1129,7 @@ TEST(FreeContacts, SpinningTogetherMakesNoSlip)
 		const auto before = a.position;
 		rotateAbout(a, { 0.7, 0.3 }, 2 * M_PI / 1000, { 0, 0 });
 		for (int n = 0; n < a.nodeCount(); ++n)
-			a.velocity[n] = a.position[n] - before[n];
+			a.state.velocity[n] = a.position(n) - before[n];
 		computeAllForces(a, joint, 1, 1, i == 0);
 		for (const EdgePair& e : a.contacts.all[0].edges)
 			if (e.area > 1e-9) // edges at right angles face each other by rounding, with an area of rounding squared
@@ -1166,31 +1166,31 @@ TEST(FreeContacts, StiffnessIsBounded)
 		Simulation        run(a, joint, 0.4, 0.3);
 		run.steps(4000);
 		const auto       stiffness = nodalStiffness(a);
-		const Real       stable = stableTimeStep(a, stiffness, a.mass), d = 1e-9;
+		const Real       stable = stableTimeStep(a, stiffness, a.mesh.mass), d = 1e-9;
 		std::vector<int> free;
 		for (int n = 0; n < a.nodeCount(); ++n)
-			if (a.mass[n] > 0) free.push_back(2 * n), free.push_back(2 * n + 1);
+			if (a.mesh.mass[n] > 0) free.push_back(2 * n), free.push_back(2 * n + 1);
 		const int       size = int(free.size());
 		Eigen::MatrixXd k(size, size);
 		auto            column = [&](int dof, Real by) {
                         BlockAssembly b = a; // moved by `by` in one step of length 1, with friction that follows
-                        for (Vec2& v : b.velocity)
+                        for (Vec2& v : b.state.velocity)
                                 v.setZero();
-                        b.position[dof / 2][dof % 2] += by;
-                        b.velocity[dof / 2][dof % 2] = by;
+                        b.position(dof / 2)[dof % 2] += by;
+                        b.state.velocity[dof / 2][dof % 2] = by;
                         JointParams rough            = joint;
                         rough.tanPhiResidual         = 1e3;
                         for (int c : b.contacts.order)
                                 b.contacts.all[c].joint = rough;
                         advanceContacts(b, 1);
                         gatherForces(b);
-                        return b.force;
+                        return b.forces.nodal;
 		};
 		for (int j = 0; j < size; ++j) {
 			const auto ahead = column(free[j], d), behind = column(free[j], -d);
 			for (int i = 0; i < size; ++i)
 				k(i, j) = (behind[free[i] / 2][free[i] % 2] - ahead[free[i] / 2][free[i] % 2]) / (2 * d)
-					/ std::sqrt(a.mass[free[i] / 2] * a.mass[free[j] / 2]);
+					/ std::sqrt(a.mesh.mass[free[i] / 2] * a.mesh.mass[free[j] / 2]);
 		}
 		const Real largest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>((k + k.transpose()) / 2, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 		worst              = std::max(worst, std::sqrt(largest) * stable / 2);
@@ -1216,7 +1216,7 @@ TEST(FreeContacts, TriplePointsStayQuiet)
 	EXPECT_FALSE(b.contacts.order.empty());
 	const Real scale = largestForce(a);
 	for (int n = 0; n < a.nodeCount(); ++n)
-		EXPECT_LT((a.force[n] - b.force[n]).norm(), 1e-4 * scale) << n;
+		EXPECT_LT((a.forces.nodal[n] - b.forces.nodal[n]).norm(), 1e-4 * scale) << n;
 }
 
 TEST(FreeContacts, NonConvexBlocksInterlock)
@@ -1251,8 +1251,8 @@ TEST(FreeContacts, PartingSetsFreeWhatTheSpringsHeld)
 	joint.cohesionResidual = joint.cohesion = 1e6;
 	computeAllForces(a, joint, 1);
 	const Real s = 1e-5;
-	for (int n = a.firstNode[1]; n < a.firstNode[2]; ++n)
-		a.position[n].x() += s, a.velocity[n].x() = s;
+	for (int n = a.mesh.firstNode[1]; n < a.mesh.firstNode[2]; ++n)
+		a.position(n).x() += s, a.state.velocity[n].x() = s;
 	computeAllForces(a, joint, 1);
 	const Real shear = 0.8 * 0.5 * 4e7 * s * s / 2, normal = 0.8 * 0.5 * 1e8 * 1e-8 / 2;
 	EXPECT_NEAR(contactEnergy(a), shear + normal, 1e-9 * (shear + normal));

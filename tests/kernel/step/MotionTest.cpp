@@ -36,16 +36,16 @@ Damping damped(Damping::Kind kind, Real alpha = 0.3)
 Real velocityAfter(Damping damping, Real f, Real v, Real m, Real dt, StepWork* work = nullptr)
 {
 	BlockAssembly a = triangle();
-	std::fill(a.inertia.begin(), a.inertia.end(), 0);
-	a.inertia[0] = m;
+	std::fill(a.state.inertia.begin(), a.state.inertia.end(), 0);
+	a.state.inertia[0] = m;
 	a.addGroup(driven("y", { 1 }, 0));
-	a.force[0].x()    = f;
-	a.velocity[0].x() = v;
-	const Real     x  = a.position[0].x();
+	a.forces.nodal[0].x()    = f;
+	a.state.velocity[0].x() = v;
+	const Real     x  = a.position(0).x();
 	const StepWork w  = integrate(a, damping, dt, 0, true);
 	if (work) *work = w;
-	EXPECT_EQ(a.position[0].x(), x + dt * a.velocity[0].x());
-	return a.velocity[0].x();
+	EXPECT_EQ(a.position(0).x(), x + dt * a.state.velocity[0].x());
+	return a.state.velocity[0].x();
 }
 
 } // namespace
@@ -70,7 +70,7 @@ TEST(CentralDifference, FollowsItsOwnExactSolution)
 		const Eigen::VectorXd phi   = m.shape.col(mode) * (0.01 / m.shape.col(mode).cwiseAbs().maxCoeff());
 		for (int i = 0; i < 6; ++i) {
 			x[i] += phi[i];
-			a.velocity[i / 2][i % 2] = phi[i] * (1 - std::cos(theta)) / dt; // (x_0 - x_-1)/dt
+			a.state.velocity[i / 2][i % 2] = phi[i] * (1 - std::cos(theta)) / dt; // (x_0 - x_-1)/dt
 		}
 		Damping none = damped(Damping::Kind::none);
 		for (int n = 1; n <= 1000; ++n) {
@@ -78,7 +78,7 @@ TEST(CentralDifference, FollowsItsOwnExactSolution)
 			integrate(a, none, dt, (n - 1) * dt);
 			if (n % 100 == 0) {
 				for (int i = 0; i < 6; ++i)
-					ASSERT_NEAR(x[i], start.position[i / 2][i % 2] + phi[i] * std::cos(n * theta), 1e-10) << "step " << n;
+					ASSERT_NEAR(x[i], start.position(i / 2)[i % 2] + phi[i] * std::cos(n * theta), 1e-10) << "step " << n;
 			}
 		}
 	}
@@ -94,16 +94,16 @@ TEST(CentralDifference, SecondOrderInTime)
 	auto error = [&](int stepsPerRadian) {
 		BlockAssembly a  = start;
 		const Real    dt = 1 / (stepsPerRadian * m.omega[0]), amplitude = 0.01;
-		a.position[2].y() += amplitude;
+		a.position(2).y() += amplitude;
 		// velocity at -dt/2 of the true solution, by Taylor's series to dt^4 (an error of 1e-5 of the amplitude's phase at most)
-		a.velocity[2].y() = amplitude * m.omega[0] * std::sin(m.omega[0] * dt / 2);
+		a.state.velocity[2].y() = amplitude * m.omega[0] * std::sin(m.omega[0] * dt / 2);
 		Damping   none    = damped(Damping::Kind::none);
 		const int steps   = 20 * stepsPerRadian;
 		for (int n = 0; n < steps; ++n) {
 			computeForces(a);
 			integrate(a, none, dt, n * dt);
 		}
-		return a.position[2].y() - start.position[2].y() - amplitude * std::cos(20);
+		return a.position(2).y() - start.position(2).y() - amplitude * std::cos(20);
 	};
 	const Real coarse = error(5), fine = error(10);
 	// the phase error as predicted, and of second order; the start's (omega dt)^2/24 adds a twentieth at most
@@ -119,7 +119,7 @@ TEST(CentralDifference, FreeFallIsExact)
 		BlockAssembly a = twoBlocks(elasticJoint(1e9, 1e9));
 		addGravity(a, { 0, -9.81 });
 		const Real dt = 1e-5, g = -9.81 * (1 - alpha);
-		for (Vec2& v : a.velocity)
+		for (Vec2& v : a.state.velocity)
 			v.y() = -g * dt / 2;
 		Damping local = damped(alpha > 0 ? Damping::Kind::local : Damping::Kind::none, alpha);
 		for (int n = 0; n < 100; ++n) {
@@ -128,8 +128,8 @@ TEST(CentralDifference, FreeFallIsExact)
 		}
 		const Real x = g * std::pow(100 * dt, 2) / 2;
 		for (int n = 0; n < a.nodeCount(); ++n) {
-			EXPECT_NEAR(a.position[n].y(), a.reference[n].y() + x, 1e3 * eps);
-			EXPECT_NEAR(a.position[n].x(), a.reference[n].x(), 1e3 * eps);
+			EXPECT_NEAR(a.position(n).y(), a.mesh.reference[n].y() + x, 1e3 * eps);
+			EXPECT_NEAR(a.position(n).x(), a.mesh.reference[n].x(), 1e3 * eps);
 		}
 	}
 }
@@ -148,17 +148,17 @@ TEST(CentralDifference, KeepsMomentumWhileJointsBreak)
 	std::uniform_real_distribution<Real> speed(-1, 2);
 	for (int block = 0; block < a.blockCount(); ++block) {
 		const Real vx = speed(random), vy = speed(random);
-		for (int n = a.firstNode[block]; n < a.firstNode[block + 1]; ++n) // and all towards the middle
-			a.velocity[n] = Vec2(vx, vy) - 4 * (a.centroid(block) - Vec2(0.5, 0.4));
+		for (int n = a.mesh.firstNode[block]; n < a.mesh.firstNode[block + 1]; ++n) // and all towards the middle
+			a.state.velocity[n] = Vec2(vx, vy) - 4 * (a.centroid(block) - Vec2(0.5, 0.4));
 	}
 	auto momentum = [&] {
 		Eigen::Vector3d sum(0, 0, 0);
 		for (int n = 0; n < a.nodeCount(); ++n)
-			sum += a.mass[n] * Eigen::Vector3d(a.velocity[n].x(), a.velocity[n].y(), cross(a.position[n], a.velocity[n]));
+			sum += a.mesh.mass[n] * Eigen::Vector3d(a.state.velocity[n].x(), a.state.velocity[n].y(), cross(a.position(n), a.state.velocity[n]));
 		return sum;
 	};
 	const Eigen::Vector3d before = momentum();
-	const Real            dt     = 0.5 * stableTimeStep(a, nodalStiffness(a), a.inertia);
+	const Real            dt     = 0.5 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
 	Damping               none   = damped(Damping::Kind::none);
 	int                   broken = 0, sliding = 0;
 	for (int i = 0; i < 300; ++i) {
@@ -179,14 +179,14 @@ TEST(CentralDifference, SpinningBondedPairStaysTogether)
 	// Two bonded blocks spin for a turn: the centrifugal stretch is rho omega^2 R^2 / E = 2000 x 100 x 1 / 2e10 = 1e-5 in strain and
 	// joints of 1e12 Pa/m open by 2e5/1e12; nothing else happens: openings stay below ten times that, and energy stays.
 	BlockAssembly a  = twoBlocks(elasticJoint(1e12, 0.4e12));
-	const Real    dt = 0.5 * stableTimeStep(a, nodalStiffness(a), a.inertia), spin = 10;
+	const Real    dt = 0.5 * stableTimeStep(a, nodalStiffness(a), a.state.inertia), spin = 10;
 	Vec2          centre = Vec2::Zero();
 	Real          mass   = 0;
 	for (int n = 0; n < a.nodeCount(); ++n)
-		centre += a.mass[n] * a.position[n], mass += a.mass[n];
+		centre += a.mesh.mass[n] * a.position(n), mass += a.mesh.mass[n];
 	centre /= mass;
 	for (int n = 0; n < a.nodeCount(); ++n)
-		a.velocity[n] = spin * Vec2(-(a.position[n] - centre).y(), (a.position[n] - centre).x());
+		a.state.velocity[n] = spin * Vec2(-(a.position(n) - centre).y(), (a.position(n) - centre).x());
 	const Real energy = kineticEnergy(a);
 	Damping    none   = damped(Damping::Kind::none);
 	const int  steps  = int(2 * M_PI / spin / dt);
@@ -200,7 +200,7 @@ TEST(CentralDifference, SpinningBondedPairStaysTogether)
 	EXPECT_LT(widest, 2e-6);
 	EXPECT_NEAR(kineticEnergy(a) + specimens::storedEnergy(a), energy, 1e-3 * energy); // half a step apart: strain energy/energy = 1e-5
 	for (int n = 0; n < a.nodeCount(); ++n) // turned by the whole angle, but for the last fraction of a step and the stretch
-		EXPECT_NEAR((a.position[n] - a.reference[n]).norm(), 0, 2 * spin * dt + 1e-3);
+		EXPECT_NEAR((a.position(n) - a.mesh.reference[n]).norm(), 0, 2 * spin * dt + 1e-3);
 }
 
 // ---- damping
@@ -244,21 +244,21 @@ TEST(Damping, LocalDecrementOfAnOscillator)
 	// (omega dt)^2 each, 12 of them: 1.2e-3 of the amplitude in all.
 	const Real          alpha = 0.3, amplitude = 0.01;
 	const BlockAssembly start = oscillator();
-	const Real          omega = modes(start, 0.1).omega[0], dt = 0.01 / omega, rest = start.position[2].y();
+	const Real          omega = modes(start, 0.1).omega[0], dt = 0.01 / omega, rest = start.position(2).y();
 	BlockAssembly       a = start;
-	a.position[2].y() += amplitude;
+	a.position(2).y() += amplitude;
 	Damping           local = damped(Damping::Kind::local, alpha);
 	std::vector<Real> peaks;
-	Real              last = a.position[2].y() - rest, dissipated = 0;
+	Real              last = a.position(2).y() - rest, dissipated = 0;
 	const Real        stored = specimens::storedEnergy(a);
 	for (int i = 0; peaks.size() < 6; ++i) {
 		ASSERT_LT(i, 100000);
-		const Real velocity = a.velocity[2].y();
+		const Real velocity = a.state.velocity[2].y();
 		computeForces(a);
 		const StepWork w = integrate(a, local, dt, i * dt, true);
-		if (i > 0 && velocity * a.velocity[2].y() < 0) peaks.push_back(std::abs(last));
+		if (i > 0 && velocity * a.state.velocity[2].y() < 0) peaks.push_back(std::abs(last));
 		dissipated += w.dampingBefore + w.dampingAfter;
-		last = a.position[2].y() - rest;
+		last = a.position(2).y() - rest;
 	}
 	for (int i = 0; i < 6; ++i)
 		EXPECT_NEAR(peaks[i], amplitude * std::pow((1 - alpha) / (1 + alpha), (i + 1) / 2.), amplitude * 1.2e-3) << "half cycle " << i + 1;
@@ -294,7 +294,7 @@ TEST(Damping, EachFindsTheStaticSolution)
 	solveStatics(exact, 1e-6, false, 5);
 	Real most = 0;
 	for (int n = 0; n < exact.nodeCount(); ++n)
-		most = std::max(most, (exact.position[n] - exact.reference[n]).norm());
+		most = std::max(most, (exact.position(n) - exact.mesh.reference[n]).norm());
 	for (const auto kind : { Damping::Kind::local, Damping::Kind::adaptive }) {
 		SCOPED_TRACE(int(kind));
 		BlockAssembly a = build();
@@ -312,7 +312,7 @@ TEST(Damping, EachFindsTheStaticSolution)
 		}
 		EXPECT_LT(steps, 20000) << "did not settle";
 		for (int n = 0; n < a.nodeCount(); ++n)
-			EXPECT_LT((a.position[n] - exact.position[n]).norm(), most * 1e-9 * 81 + 100 * eps) << "node " << n;
+			EXPECT_LT((a.position(n) - exact.position(n)).norm(), most * 1e-9 * 81 + 100 * eps) << "node " << n;
 	}
 }
 
@@ -343,19 +343,19 @@ TEST(MotionGroup, DrivenBlocksGoWhereTheyAreTold)
 	const Real dt   = 0.002;
 	Damping    none = damped(Damping::Kind::none);
 	for (int i = 0; i < 500; ++i) {
-		if (i == 250) a.groups[y].throttle = 0.5;
+		if (i == 250) a.state.groups[y].throttle = 0.5;
 		integrate(a, none, dt, i * dt);
 		if (i == 50) {
-			EXPECT_NEAR(a.groups[y].velocity, -0.6 * a.groups[y].ramp(50.5 * dt), 4 * eps);
+			EXPECT_NEAR(a.state.groups[y].velocity, -0.6 * a.state.groups[y].ramp(50.5 * dt), 4 * eps);
 		}
 	}
 	const Real way = -0.6 * ((0.5 - 0.1) + 0.5 * 0.5);
-	EXPECT_NEAR(a.groups[y].travelled, way, 0.6 * 0.2 * 1e-7);
-	EXPECT_EQ(a.groups[y].velocity, -0.3);
+	EXPECT_NEAR(a.state.groups[y].travelled, way, 0.6 * 0.2 * 1e-7);
+	EXPECT_EQ(a.state.groups[y].velocity, -0.3);
 	for (int n = 0; n < 3; ++n) {
-		EXPECT_NEAR(a.position[n].y() - a.reference[n].y(), a.groups[y].travelled, 500 * eps);
-		EXPECT_EQ(a.position[n].x(), a.reference[n].x());
-		EXPECT_EQ(a.velocity[n].y(), -0.3);
+		EXPECT_NEAR(a.position(n).y() - a.mesh.reference[n].y(), a.state.groups[y].travelled, 500 * eps);
+		EXPECT_EQ(a.position(n).x(), a.mesh.reference[n].x());
+		EXPECT_EQ(a.state.velocity[n].y(), -0.3);
 	}
 }
 
@@ -364,46 +364,46 @@ TEST(MotionGroup, PlatenMovesAsOneUnderItsForce)
 	// Two of three nodes joined in y, unequal in mass: acceleration = (sum of forces + applied) / sum of masses. The ramp counts at
 	// the time of the forces.
 	BlockAssembly a = triangle();
-	a.inertia       = { 2, 3, 5 };
+	a.state.inertia       = { 2, 3, 5 };
 	const int g     = a.addGroup(pushed("platen", { 5, 1 }, 40, 4));
-	a.force         = { { 1, -7 }, { 2, 6 }, { 3, 9 } };
+	a.forces.nodal         = { { 1, -7 }, { 2, 6 }, { 3, 9 } };
 	Damping none    = damped(Damping::Kind::none);
 	integrate(a, none, 0.1, 2, true); // ramp(2) = 1/2
-	EXPECT_NEAR(a.groups[g].velocity, (-7 + 9 + 20) / 7. * 0.1, 8 * eps);
-	EXPECT_EQ(a.velocity[0].y(), a.groups[g].velocity);
-	EXPECT_EQ(a.velocity[2].y(), a.groups[g].velocity);
-	EXPECT_NEAR(a.velocity[1].y(), 6 / 3. * 0.1, 8 * eps);
-	EXPECT_NEAR(a.velocity[2].x(), 3 / 5. * 0.1, 8 * eps);
-	EXPECT_NEAR(a.groups[g].travelled, a.groups[g].velocity * 0.1, 8 * eps);
-	EXPECT_EQ(a.groups[g].force, 20);
+	EXPECT_NEAR(a.state.groups[g].velocity, (-7 + 9 + 20) / 7. * 0.1, 8 * eps);
+	EXPECT_EQ(a.state.velocity[0].y(), a.state.groups[g].velocity);
+	EXPECT_EQ(a.state.velocity[2].y(), a.state.groups[g].velocity);
+	EXPECT_NEAR(a.state.velocity[1].y(), 6 / 3. * 0.1, 8 * eps);
+	EXPECT_NEAR(a.state.velocity[2].x(), 3 / 5. * 0.1, 8 * eps);
+	EXPECT_NEAR(a.state.groups[g].travelled, a.state.groups[g].velocity * 0.1, 8 * eps);
+	EXPECT_EQ(a.state.groups[g].force, 20);
 
 	// with damping: the group as a whole is what moves
 	Damping local = damped(Damping::Kind::local, 0.3);
-	a.force       = { { 1, -7 }, { 2, 6 }, { 3, 9 } };
-	Real before   = a.groups[g].velocity;
+	a.forces.nodal       = { { 1, -7 }, { 2, 6 }, { 3, 9 } };
+	Real before   = a.state.groups[g].velocity;
 	integrate(a, local, 0.1, 4);
-	EXPECT_NEAR(a.groups[g].velocity, before + 0.7 * (2 + 40) / 7. * 0.1, 16 * eps);
+	EXPECT_NEAR(a.state.groups[g].velocity, before + 0.7 * (2 + 40) / 7. * 0.1, 16 * eps);
 	Damping viscous = damped(Damping::Kind::adaptive);
 	viscous.c       = 4;
-	before          = a.groups[g].velocity;
+	before          = a.state.groups[g].velocity;
 	integrate(a, viscous, 0.1, 4);
-	EXPECT_NEAR(a.groups[g].velocity, (0.8 * before + 42 / 7. * 0.1) / 1.2, 16 * eps);
+	EXPECT_NEAR(a.state.groups[g].velocity, (0.8 * before + 42 / 7. * 0.1) / 1.2, 16 * eps);
 }
 
 TEST(MotionGroup, ForceOnADrivenGroup)
 {
 	// What a driven group puts on the blocks: sum m a - sum F. From 0 to -0.5 m/s in one step of 0.1 s.
 	BlockAssembly a = triangle();
-	a.inertia       = { 2, 3, 5 };
+	a.state.inertia       = { 2, 3, 5 };
 	const int g     = a.addGroup(driven("g", { 1, 5 }, -0.5));
-	a.force         = { { 1, -7 }, { 2, 6 }, { 3, 10 } };
+	a.forces.nodal         = { { 1, -7 }, { 2, 6 }, { 3, 10 } };
 	Damping none    = damped(Damping::Kind::none);
 	integrate(a, none, 0.1, 0);
-	EXPECT_NEAR(a.groups[g].force, -0.5 / 0.1 * 7 - 3, 40 * 4 * eps);
+	EXPECT_NEAR(a.state.groups[g].force, -0.5 / 0.1 * 7 - 3, 40 * 4 * eps);
 	integrate(a, none, 0.1, 0.1); // velocity kept: only -F
-	EXPECT_NEAR(a.groups[g].force, -3, 40 * 4 * eps);
+	EXPECT_NEAR(a.state.groups[g].force, -3, 40 * 4 * eps);
 	// work: applied at n over half of each neighbouring step: -38 x (0 + -0.5)/2 x 0.1 at the first time, -3 x -0.5 x 0.05 so far
-	EXPECT_NEAR(a.groups[g].work, 0.95 + 0.075, 40 * eps);
+	EXPECT_NEAR(a.state.groups[g].work, 0.95 + 0.075, 40 * eps);
 }
 
 TEST(MotionGroup, RefusesBadInput)
@@ -419,7 +419,7 @@ TEST(MotionGroup, RefusesBadInput)
 	expectRefusal([&] { a.addGroup(driven("head", { 5 }, nan)); }, { "\"head\"", "target", "finite", "nan" });
 	expectRefusal([&] { a.addGroup(driven("head", { 5 }, 1, -0.25)); }, { "\"head\"", "rampTime", "not be negative [s]", "got -0.25" });
 	const int rigid = a.addBlock({ { 0, -1 }, { 1, -1 }, { 0.5, -0.5 } }, { { 0, 1, 2 } }, {}, 0);
-	expectRefusal([&] { a.addGroup(pushed("head", { 2 * a.firstNode[rigid] }, 1)); }, { "\"head\"", "rigid block", "got " });
-	EXPECT_EQ(a.groups.size(), 1u);
-	EXPECT_EQ(a.mobility[2].y() > 0, true); // what was refused holds nothing
+	expectRefusal([&] { a.addGroup(pushed("head", { 2 * a.mesh.firstNode[rigid] }, 1)); }, { "\"head\"", "rigid block", "got " });
+	EXPECT_EQ(a.state.groups.size(), 1u);
+	EXPECT_EQ(a.supports.mobility[2].y() > 0, true); // what was refused holds nothing
 }

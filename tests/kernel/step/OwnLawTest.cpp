@@ -45,10 +45,10 @@ BlockAssembly twoBlocks()
 
 void lift(BlockAssembly& a, Real opening)
 {
-	for (int n = a.firstNode[1]; n < a.firstNode[2]; ++n)
-		a.position[n] = a.reference[n] + Vec2(0, opening);
-	updateKinematics(a, 0, int(a.segments.size()));
-	for (int pair = 0; pair < int(a.pairs.size()); ++pair)
+	for (int n = a.mesh.firstNode[1]; n < a.mesh.firstNode[2]; ++n)
+		a.place(n, a.mesh.reference[n] + Vec2(0, opening));
+	updateKinematics(a, 0, int(a.joints.segments.size()));
+	for (int pair = 0; pair < int(a.joints.pairs.size()); ++pair)
 		advanceJoints(a, pair, LinearSoftening { w });
 	computeJointForces(a);
 	gatherForces(a);
@@ -58,8 +58,8 @@ void lift(BlockAssembly& a, Real opening)
 Real pull(const BlockAssembly& a)
 {
 	Real sum = 0;
-	for (int n = a.firstNode[0]; n < a.firstNode[1]; ++n)
-		sum += a.force[n].y();
+	for (int n = a.mesh.firstNode[0]; n < a.mesh.firstNode[1]; ++n)
+		sum += a.forces.nodal[n].y();
 	return sum;
 }
 
@@ -101,7 +101,7 @@ TEST(OwnLaw, SofteningBarOfDeformableBlocks)
 {
 	const Real    area = width * thickness, e = strength / kn, flexibility = 2 * height / 20e9;
 	BlockAssembly a   = twoBlocks();
-	const int     top = a.firstNode[2] - 3; // three grid points on the upper side, as on the lower
+	const int     top = a.mesh.firstNode[2] - 3; // three grid points on the upper side, as on the lower
 	a.addGroup({ "bottom", MotionGroup::Drive::velocity, { 1, 3, 5 } });
 	const Real  dt = 1, total = 1.4e-4, steps = 20000;
 	MotionGroup driven { "top", MotionGroup::Drive::velocity, { 2 * top + 1, 2 * top + 3, 2 * top + 5 } };
@@ -118,13 +118,13 @@ TEST(OwnLaw, SofteningBarOfDeformableBlocks)
 	damping.alpha = 0.5;
 	Real peak     = 0;
 	for (int i = 0; i < int(steps); ++i) {
-		updateKinematics(a, 0, int(a.segments.size()));
-		for (int pair = 0; pair < int(a.pairs.size()); ++pair)
+		updateKinematics(a, 0, int(a.joints.segments.size()));
+		for (int pair = 0; pair < int(a.joints.pairs.size()); ++pair)
 			advanceJoints(a, pair, LinearSoftening { w });
 		computeJointForces(a);
 		gatherForces(a);
 		integrate(a, damping, dt, i * dt);
-		const Real u = a.groups[1].travelled - a.groups[1].velocity * dt, force = a.groups[1].force; // both of this step's forces
+		const Real u = a.state.groups[1].travelled - a.state.groups[1].velocity * dt, force = a.state.groups[1].force; // both of this step's forces
 		peak              = std::max(peak, force);
 		const Real atPeak = e + strength * flexibility;
 		// after the peak: u = un + flexibility sigma with sigma = f (w - un) / (w - e), solved for sigma
@@ -136,5 +136,5 @@ TEST(OwnLaw, SofteningBarOfDeformableBlocks)
 		ASSERT_NEAR(force, area * sigma, 20 * total / steps * slope * area + 0.01 * area * strength) << "step " << i << ", u = " << u;
 	}
 	EXPECT_NEAR(peak, area * strength, 0.005 * area * strength);
-	EXPECT_NEAR(a.groups[1].force, 0, 0.01 * area * strength); // u = 1.4e-4 > w: parted
+	EXPECT_NEAR(a.state.groups[1].force, 0, 0.01 * area * strength); // u = 1.4e-4 > w: parted
 }

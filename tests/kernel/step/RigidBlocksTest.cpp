@@ -34,7 +34,7 @@ StepWork moveRigid(BlockAssembly& a, Real dt, const Vec3& extra = Vec3::Zero(), 
 {
 	gatherRigidForces(a);
 	StepWork work;
-	for (RigidBlock& r : a.rigid) {
+	for (RigidBlock& r : a.state.rigid) {
 		RigidMotion now { r.centre, r.halfTurn, r.velocity, r.force + extra };
 		for (int i = 0; i < 3; ++i)
 			if (r.free[i]) { // local damping
@@ -54,17 +54,17 @@ Eigen::MatrixXd coordinates(const BlockAssembly& a, Eigen::VectorXd& mass)
 {
 	std::vector<int> nodes;
 	for (int n = 0; n < a.nodeCount(); ++n)
-		if (a.mass[n] > 0) nodes.push_back(n);
-	const int       count = 2 * int(nodes.size()) + 3 * int(a.rigid.size());
+		if (a.mesh.mass[n] > 0) nodes.push_back(n);
+	const int       count = 2 * int(nodes.size()) + 3 * int(a.state.rigid.size());
 	Eigen::MatrixXd g     = Eigen::MatrixXd::Zero(2 * a.nodeCount(), count);
 	mass.resize(count);
 	int column = 0;
 	for (int n : nodes)
 		for (int axis : { 0, 1 })
-			g(2 * n + axis, column) = 1, mass[column++] = a.inertia[n];
-	for (const RigidBlock& r : a.rigid) {
-		for (int n = a.firstNode[r.block]; n < a.firstNode[r.block + 1]; ++n) {
-			const Vec2 arm   = a.position[n] - r.centre;
+			g(2 * n + axis, column) = 1, mass[column++] = a.state.inertia[n];
+	for (const RigidBlock& r : a.state.rigid) {
+		for (int n = a.mesh.firstNode[r.block]; n < a.mesh.firstNode[r.block + 1]; ++n) {
+			const Vec2 arm   = a.position(n) - r.centre;
 			g(2 * n, column) = g(2 * n + 1, column + 1) = 1;
 			g(2 * n, column + 2) = -arm.y(), g(2 * n + 1, column + 2) = arm.x();
 		}
@@ -86,7 +86,7 @@ Real trueLimit(const BlockAssembly& a)
 Real boundOf(const BlockAssembly& a, Masses masses)
 {
 	const auto k = nodalStiffness(a);
-	return std::min(stableTimeStep(a, k, masses == Masses::actual ? a.mass : a.inertia), rigidTimeStep(a, k, masses));
+	return std::min(stableTimeStep(a, k, masses == Masses::actual ? a.mesh.mass : a.state.inertia), rigidTimeStep(a, k, masses));
 }
 
 } // namespace
@@ -101,7 +101,7 @@ TEST(RigidBlocks, MassCentroidMoment)
 	const Vec2 corner(30, -20);
 	auto       at = [&](Real x, Real y) { return Vec2(corner + Vec2(c * x - s * y, s * x + c * y)); };
 	addRigid(a, { at(0, 0), at(b, 0), at(0, h) });
-	const RigidBlock& r    = a.rigid.at(0);
+	const RigidBlock& r    = a.state.rigid.at(0);
 	const Real        mass = b * h / 2 * 0.4 * 2000;
 	EXPECT_NEAR(r.mass, mass, 1e-12 * mass); // coordinates of 30 known to 4e-15
 	EXPECT_NEAR((r.origin - at(b / 3, h / 3)).norm(), 0, 1e-13);
@@ -113,13 +113,13 @@ TEST(RigidBlocks, MassCentroidMoment)
 	const int ring = a.addBlock(
 		{ { 0, 0 }, { 2, 0 }, { 2, 2 }, { 0, 2 }, { 0.5, 0.5 }, { 0.5, 1 }, { 1, 1 }, { 1, 0.5 } }, { { 0, 1, 2, 3 }, { 4, 5, 6, 7 } }, {}, 0);
 	EXPECT_NEAR((a.centroid(ring) - Vec2(1, 1) * (4 - 0.25 * 0.75) / 3.75).norm(), 0, 8 * eps);
-	EXPECT_NEAR(a.rigid[1].mass, 3.75 * 0.4 * 2000, 1e-12 * 3000);
+	EXPECT_NEAR(a.state.rigid[1].mass, 3.75 * 0.4 * 2000, 1e-12 * 3000);
 	expectRefusal(
 		[&] {
 			a.addBlock({ { 0, 0 }, { 1, 0 }, { 0, 1 }, { 5, 5 }, { 5, 9 }, { 9, 9 } }, { { 0, 1, 2 }, { 3, 4, 5 } }, {}, 0);
 		},
 		{ "holes", "got -" });
-	EXPECT_EQ(a.rigid.size(), 2u);
+	EXPECT_EQ(a.state.rigid.size(), 2u);
 	expectRefusal([&] { a.addGroup(driven("top", { 2 }, 0)); }, { "\"top\"", "rigid block", "got 1" });
 }
 
@@ -130,50 +130,50 @@ TEST(RigidBlocks, ForcesAndMomentsBalance)
 	std::mt19937                         random(3);
 	std::uniform_real_distribution<Real> shift(-1e-4, 1e-4);
 	for (int n = 0; n < a.nodeCount(); ++n)
-		if (a.mass[n] > 0) a.position[n] += Vec2(shift(random), shift(random));
-	for (RigidBlock& r : a.rigid) {
+		if (a.mesh.mass[n] > 0) a.state.displacement[n] += Vec2(shift(random), shift(random));
+	for (RigidBlock& r : a.state.rigid) {
 		const Real  half = 1e-4 * (1 + r.block);
 		RigidMotion now { r.centre + Vec2(2e-4, -1e-4 * r.block), { std::cos(half), std::sin(half) }, Vec3::Zero(), Vec3::Zero() };
 		followRigidMotion(a, r, now, 1);
-		for (int n = a.firstNode[r.block]; n < a.firstNode[r.block + 1]; ++n)
-			a.position[n] += a.velocity[n];
+		for (int n = a.mesh.firstNode[r.block]; n < a.mesh.firstNode[r.block + 1]; ++n)
+			a.state.displacement[n] += a.state.velocity[n];
 	}
 	computeForces(a);
 	gatherRigidForces(a);
 	Vec3 nodes = Vec3::Zero(), rigid = Vec3::Zero();
 	for (int n = 0; n < a.nodeCount(); ++n)
-		if (a.mass[n] > 0) nodes += Vec3(a.force[n].x(), a.force[n].y(), cross(a.position[n], a.force[n]));
-	for (const RigidBlock& r : a.rigid)
+		if (a.mesh.mass[n] > 0) nodes += Vec3(a.forces.nodal[n].x(), a.forces.nodal[n].y(), cross(a.position(n), a.forces.nodal[n]));
+	for (const RigidBlock& r : a.state.rigid)
 		rigid += r.force + Vec3(0, 0, cross(r.centre, r.force.head<2>()));
 	const Real scale = largestForce(a);
-	EXPECT_GT(a.rigid[0].force.head<2>().norm(), 1e-3 * scale);
-	EXPECT_GT(std::abs(a.rigid[0].force[2]), 1e-3 * scale);
+	EXPECT_GT(a.state.rigid[0].force.head<2>().norm(), 1e-3 * scale);
+	EXPECT_GT(std::abs(a.state.rigid[0].force[2]), 1e-3 * scale);
 	EXPECT_LT((nodes + rigid).norm(), 1e-11 * scale); // 100 terms of 1e-16
-	const Vec3 without = a.rigid[1].force;
+	const Vec3 without = a.state.rigid[1].force;
 	addGravity(a, { 0.5, -9.81 });
-	addTraction(a, a.firstEdge[3] + 1, { 1e5, 2e5 }); // from (1.6, 0.6) to (1.5, 1.1)
+	addTraction(a, a.mesh.firstEdge[3] + 1, { 1e5, 2e5 }); // from (1.6, 0.6) to (1.5, 1.1)
 	computeForces(a);
 	gatherRigidForces(a);
-	const Real length = Vec2(0.1, 0.5).norm() * 0.3, mass = a.rigid[1].mass;
-	const Vec2 arm = (a.position[a.firstNode[3] + 1] + a.position[a.firstNode[3] + 2]) / 2 - a.rigid[1].centre;
+	const Real length = Vec2(0.1, 0.5).norm() * 0.3, mass = a.state.rigid[1].mass;
+	const Vec2 arm = (a.position(a.mesh.firstNode[3] + 1) + a.position(a.mesh.firstNode[3] + 2)) / 2 - a.state.rigid[1].centre;
 	const Vec3 expected(1e5 * length + 0.5 * mass, 2e5 * length - 9.81 * mass, cross(arm, Vec2(1e5, 2e5)) * length);
-	EXPECT_LT((a.rigid[1].force - without - expected).norm(), 1e-11 * scale);
+	EXPECT_LT((a.state.rigid[1].force - without - expected).norm(), 1e-11 * scale);
 }
 
 TEST(RigidBlocks, GridPointsGoWhereTheBodyGoes)
 {
 	BlockAssembly a = mixed(elasticJoint(1e9, 1e9));
-	RigidBlock&   r = a.rigid[0];
+	RigidBlock&   r = a.state.rigid[0];
 	Damping       none;
 	none.kind                  = Damping::Kind::none;
 	const Real half            = 1.2;
-	a.velocity[a.firstNode[1]] = { 7, 7 }; // of no account
+	a.state.velocity[a.mesh.firstNode[1]] = { 7, 7 }; // of no account
 	followRigidMotion(a, r, { r.origin + Vec2(3, -2), { std::cos(half), std::sin(half) }, { 1, 2, 3 }, Vec3::Zero() }, 0.1);
 	integrate(a, none, 0.1, 0);
 	Eigen::Matrix<Real, 2, 2> turn;
 	turn << std::cos(2 * half), -std::sin(2 * half), std::sin(2 * half), std::cos(2 * half);
-	for (int n = a.firstNode[1]; n < a.firstNode[2]; ++n)
-		EXPECT_LT((a.position[n] - (r.origin + Vec2(3, -2) + turn * (a.reference[n] - r.origin))).norm(), 16 * eps);
+	for (int n = a.mesh.firstNode[1]; n < a.mesh.firstNode[2]; ++n)
+		EXPECT_LT((a.position(n) - (r.origin + Vec2(3, -2) + turn * (a.mesh.reference[n] - r.origin))).norm(), 16 * eps);
 	EXPECT_LT((a.centroid(1) - r.centre).norm(), 16 * eps);
 }
 
@@ -191,14 +191,14 @@ TEST(RigidBlocks, BoundIsBelowTheTrueLimitAndNotFarBelow)
 		const auto k = nodalStiffness(a);
 		scaleInertia(a, k, 0.25, 0.8);
 		scaleRigidInertia(a, k, 0.25, 0.8);
-		EXPECT_NE(a.rigid[0].inertia, a.rigid[0].mass);
+		EXPECT_NE(a.state.rigid[0].inertia, a.state.rigid[0].mass);
 		bound = boundOf(a, Masses::resisting), limit = trueLimit(a);
 		EXPECT_GE(bound, 0.25 / 0.8 * (1 - 1e-12)); // every node and block at the same fraction, or below
 		EXPECT_LE(0.25 / 0.8, limit * (1 + 1e-6));
 		EXPECT_GE(0.25 / 0.8, limit / 4);
 		restoreRigidInertia(a);
-		EXPECT_EQ(a.rigid[0].inertia, a.rigid[0].mass);
-		EXPECT_EQ(a.rigid[1].rotaryInertia, a.rigid[1].moment);
+		EXPECT_EQ(a.state.rigid[0].inertia, a.state.rigid[0].mass);
+		EXPECT_EQ(a.state.rigid[1].rotaryInertia, a.state.rigid[1].moment);
 	}
 }
 
@@ -209,7 +209,7 @@ TEST(RigidBlocks, BoundInClosedForm)
 	a.addMaterial({ 1, 0, 0.5 }); // 2 x 1: mass 1, moment 5/12
 	addRigid(a, { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 0, 1 } });
 	const std::vector<Real> k { 3, 1, 0, 0 };
-	RigidBlock&             r     = a.rigid[0];
+	RigidBlock&             r     = a.state.rigid[0];
 	const RigidStiffness    bound = rigidStiffness(a, k, r);
 	EXPECT_NEAR(bound.translation, 4, 4 * eps);
 	EXPECT_NEAR(bound.coupling, std::sqrt(8), 8 * eps);
@@ -242,8 +242,8 @@ TEST(RigidBlocks, StableAtTheBoundForManySteps)
 	std::mt19937                         random(5);
 	std::uniform_real_distribution<Real> kick(-1e-9, 1e-9);
 	for (int n = 0; n < a.nodeCount(); ++n)
-		if (a.mass[n] > 0) a.velocity[n] = { kick(random), kick(random) };
-	for (RigidBlock& r : a.rigid)
+		if (a.mesh.mass[n] > 0) a.state.velocity[n] = { kick(random), kick(random) };
+	for (RigidBlock& r : a.state.rigid)
 		r.velocity = { kick(random), kick(random), kick(random) };
 	const Real start = kineticEnergy(a);
 	Damping    none;
@@ -269,7 +269,7 @@ TEST(RigidBlocks, MomentaAreKeptAndEnergyBalances)
 		addGravity(a, { 0, -3 });
 		Real balance = 0, largest = 0, damped = 0, pending = 0;
 		Vec3 momentum = Vec3::Zero(), start = Vec3::Zero();
-		for (RigidBlock& r : a.rigid)
+		for (RigidBlock& r : a.state.rigid)
 			r.velocity = { speed, 0, 20 * speed };
 		for (int i = 0; i < 3000; ++i) {
 			computeForces(a);
@@ -284,16 +284,16 @@ TEST(RigidBlocks, MomentaAreKeptAndEnergyBalances)
 			ASSERT_NEAR(sum, balance, 1e-3 * largest + 1e-12) << i; // linear but for turns of some 1e-3
 			momentum = Vec3::Zero();
 			for (int n = 0; n < a.nodeCount(); ++n) {
-				const Vec2 p = a.mass[n] * a.velocity[n];
-				momentum += Vec3(p.x(), p.y(), cross(a.position[n], p));
+				const Vec2 p = a.mesh.mass[n] * a.state.velocity[n];
+				momentum += Vec3(p.x(), p.y(), cross(a.position(n), p));
 			}
-			for (const RigidBlock& r : a.rigid) {
+			for (const RigidBlock& r : a.state.rigid) {
 				const Vec2 p = r.mass * r.velocity.head<2>();
 				momentum += Vec3(p.x(), p.y(), cross(r.centre, p) + r.moment * r.velocity[2]);
 			}
 			if (i == 99) {
-				a.load.clear(); // then nothing acts from outside
-				for (RigidBlock& r : a.rigid)
+				a.supports.load.clear(); // then nothing acts from outside
+				for (RigidBlock& r : a.state.rigid)
 					r.load.setZero();
 				start = momentum;
 			}
@@ -314,7 +314,7 @@ TEST(RigidBlocks, WorkOfOneStepByHand)
 	BlockAssembly a;
 	a.addMaterial(stone());
 	addRigid(a, { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 0, 1 } });
-	RigidBlock& r = a.rigid[0];
+	RigidBlock& r = a.state.rigid[0];
 	r.inertia = 2, r.rotaryInertia = 3, r.force = { 5, 6, 1 }, r.velocity = { 1, 4, 2 }, r.free = { true, false, true };
 	r.work = 100, r.pendingWork = 10;
 	const StepWork work = followRigidMotion(a, r, { r.centre, r.halfTurn, { 1.3, 3, 2.1 }, { 9, 99, 4 } }, 0.1);
@@ -342,19 +342,19 @@ TEST(RigidBlocks, AreHeldInTheLastGoodState)
 	BlockAssembly  a = mixed(elasticJoint(100e9, 40e9));
 	StabilityWatch watch;
 	computeForces(a);
-	a.rigid[1].velocity = { 1, 2, 3 };
+	a.state.rigid[1].velocity = { 1, 2, 3 };
 	EXPECT_TRUE(watch.look(a, 7, 0.7, 0.1).stable);
-	const RigidBlock good = a.rigid[1];
+	const RigidBlock good = a.state.rigid[1];
 	moveRigid(a, 0.1);
-	a.rigid[1].velocity *= std::nan("");
-	a.velocity[a.firstNode[3]].x() = std::nan("");
+	a.state.rigid[1].velocity *= std::nan("");
+	a.state.velocity[a.mesh.firstNode[3]].x() = std::nan("");
 	const auto verdict             = watch.look(a, 8, 0.8, 0.1);
 	EXPECT_FALSE(verdict.stable);
 	EXPECT_EQ(verdict.block, 3);
 	EXPECT_EQ(watch.restore(a), 7);
-	EXPECT_EQ(a.rigid[1].centre, good.centre);
-	EXPECT_EQ(a.rigid[1].halfTurn, good.halfTurn);
-	EXPECT_EQ(a.rigid[1].velocity, good.velocity);
+	EXPECT_EQ(a.state.rigid[1].centre, good.centre);
+	EXPECT_EQ(a.state.rigid[1].halfTurn, good.halfTurn);
+	EXPECT_EQ(a.state.rigid[1].velocity, good.velocity);
 }
 
 TEST(RigidBlocks, CountAmongTheUnbalanced)
@@ -364,7 +364,7 @@ TEST(RigidBlocks, CountAmongTheUnbalanced)
 	EXPECT_EQ(unbalancedRatio(a, 1000), 0);
 	moveRigid(a, 1e-9, { 30, -20, 5 }); // both rigid blocks
 	EXPECT_NEAR(unbalancedRatio(a, 1000), 100 / 2000., 1e-6);
-	a.rigid[1].free = { true, false, true };
+	a.state.rigid[1].free = { true, false, true };
 	moveRigid(a, 1e-9, { 30, -20, 5 });
 	EXPECT_NEAR(unbalancedRatio(a, 1000), 80 / 2000., 1e-6);
 }

@@ -42,7 +42,7 @@ Real excursion(BlockAssembly a, Damping damping, Real dt, int steps)
 	for (int n = 0; n < a.nodeCount(); ++n)
 		for (int axis : { 0, 1 }) {
 			const Real d = shift(random);
-			if (a.mobility[n][axis] > 0) a.position[n][axis] += d;
+			if (a.supports.mobility[n][axis] > 0) a.position(n)[axis] += d;
 		}
 	for (int i = 0; i < steps; ++i) {
 		computeForces(a);
@@ -50,7 +50,7 @@ Real excursion(BlockAssembly a, Damping damping, Real dt, int steps)
 	}
 	Real most = 0;
 	for (int n = 0; n < a.nodeCount(); ++n)
-		most = std::max(most, (a.position[n] - a.reference[n]).norm());
+		most = std::max(most, (a.position(n) - a.mesh.reference[n]).norm());
 	return std::isfinite(most) ? most : 1e300;
 }
 
@@ -72,7 +72,7 @@ TEST(TimeStep, BoundIsBelowTheTrueLimitAndNotFarBelow)
 	for (const Real ratio : { 1e-3, 1., 1e3 })
 		for (const Mesh& m : meshes(ratio)) {
 			SCOPED_TRACE(m.name + " joints x " + shown(ratio));
-			const Real bound = stableTimeStep(m.assembly, nodalStiffness(m.assembly), m.assembly.inertia), limit = trueLimit(m.assembly);
+			const Real bound = stableTimeStep(m.assembly, nodalStiffness(m.assembly), m.assembly.state.inertia), limit = trueLimit(m.assembly);
 			EXPECT_LE(bound, limit * (1 + 1e-6));
 			EXPECT_GE(bound, limit * 0.5);
 		}
@@ -84,7 +84,7 @@ TEST(TimeStep, BoundHoldsWhereverBlocksHaveTurned)
 		SCOPED_TRACE(m.name);
 		BlockAssembly a = m.assembly;
 		rotateAbout(a, { 0.3, 0.1 }, 0.7, { 0, 0 });
-		const Real bound = stableTimeStep(a, nodalStiffness(a), a.inertia);
+		const Real bound = stableTimeStep(a, nodalStiffness(a), a.state.inertia);
 		EXPECT_LE(bound, trueLimit(a) * (1 + 1e-6));
 	}
 }
@@ -102,7 +102,7 @@ TEST(TimeStep, OneZoneInClosedForm)
 	EXPECT_NEAR(K[0], 3 + 2 + std::sqrt(2), 100 * eps);
 	EXPECT_NEAR(K[1], 1.5 + 1 + std::sqrt(0.5) + 0.5, 100 * eps);
 	EXPECT_NEAR(K[2], K[1], 100 * eps);
-	EXPECT_NEAR(stableTimeStep(a, K, a.inertia), 2 / std::sqrt(5 + std::sqrt(2)), 100 * eps); // masses 1
+	EXPECT_NEAR(stableTimeStep(a, K, a.state.inertia), 2 / std::sqrt(5 + std::sqrt(2)), 100 * eps); // masses 1
 }
 
 TEST(TimeStep, JointsShareInClosedForm)
@@ -121,8 +121,8 @@ TEST(TimeStep, JointsShareInClosedForm)
 	EXPECT_NEAR(K[3], unit, 1e-7); // the zones' share is below 10 E = 1e-8
 	EXPECT_NEAR(K[4], 2 * unit, 1e-7);
 	EXPECT_NEAR(K[5], unit, 1e-7);
-	EXPECT_NEAR(K[a.firstNode[1]], 2 * unit, 1e-7); // 1 at its own end, 1/2 from each of two points in the middle
-	EXPECT_NEAR(K[a.firstNode[1] + 1], 2 * unit, 1e-7);
+	EXPECT_NEAR(K[a.mesh.firstNode[1]], 2 * unit, 1e-7); // 1 at its own end, 1/2 from each of two points in the middle
+	EXPECT_NEAR(K[a.mesh.firstNode[1] + 1], 2 * unit, 1e-7);
 }
 
 TEST(TimeStep, StableBelowTheTrueLimitUnstableAbove)
@@ -156,13 +156,13 @@ TEST(TimeStep, LocalDampingLowersTheLimit)
 		for (const Real part : { 0.98, 1.005 }) {
 			BlockAssembly b  = a;
 			const Real    dt = part * limit / std::sqrt(1 + alpha);
-			b.position[2].y() += 1e-6;
-			b.velocity[2].y() = 2e-6 / dt;
+			b.position(2).y() += 1e-6;
+			b.state.velocity[2].y() = 2e-6 / dt;
 			Real most         = 0;
 			for (int i = 0; i < 120; ++i) {
 				computeForces(b);
 				integrate(b, local, dt, i * dt);
-				most = std::max(most, std::abs(b.position[2].y() - b.reference[2].y()));
+				most = std::max(most, std::abs(b.position(2).y() - b.mesh.reference[2].y()));
 			}
 			EXPECT_EQ(most > 1, part > 1);
 			EXPECT_EQ(most < 1e-5, part < 1); // 1/sqrt(1 - 0.98^2) = 5 times the start
@@ -179,13 +179,13 @@ TEST(TimeStep, ScaledInertiaPutsEveryNodeAtTheSameFraction)
 		const auto    K = nodalStiffness(a);
 		scaleInertia(a, K, 0.25, 0.8);
 		for (int n = 0; n < a.nodeCount(); ++n) {
-			EXPECT_NEAR(2 * std::sqrt(a.inertia[n] / K[n]) * 0.8, 0.25, 8 * eps);
-			EXPECT_NEAR(a.mobility[n].x() * a.inertia[n], 1, 4 * eps);
+			EXPECT_NEAR(2 * std::sqrt(a.state.inertia[n] / K[n]) * 0.8, 0.25, 8 * eps);
+			EXPECT_NEAR(a.supports.mobility[n].x() * a.state.inertia[n], 1, 4 * eps);
 		}
-		EXPECT_NEAR(stableTimeStep(a, K, a.inertia), 0.25 / 0.8, 8 * eps);
+		EXPECT_NEAR(stableTimeStep(a, K, a.state.inertia), 0.25 / 0.8, 8 * eps);
 		EXPECT_LE(0.25, 0.8 * trueLimit(a) * (1 + 1e-6));
 		for (int n = 0; n < a.nodeCount(); ++n)
-			EXPECT_EQ(a.mass[n], m.assembly.mass[n]); // true masses stay, for gravity
+			EXPECT_EQ(a.mesh.mass[n], m.assembly.mesh.mass[n]); // true masses stay, for gravity
 	}
 }
 
@@ -212,9 +212,9 @@ TEST(TimeStep, PlatenUnderForceCountsDrivenOneDoesNot)
 	// Platen against middle: k = E/0.01 = 2e12; omega^2 is nearly k (1/10 + 1/1010), less than 1 % from the other layer.
 	const Real    limit = 2 / std::sqrt(2e12 * (1 / 10. + 1 / 1010.));
 	BlockAssembly a     = build(true);
-	EXPECT_LT(stableTimeStep(a, nodalStiffness(a), a.inertia), limit * 1.01);
+	EXPECT_LT(stableTimeStep(a, nodalStiffness(a), a.state.inertia), limit * 1.01);
 	BlockAssembly held = build(false); // then middle and foot remain; still bounded by their own rows
-	EXPECT_GE(stableTimeStep(held, nodalStiffness(held), held.inertia), stableTimeStep(a, nodalStiffness(a), a.inertia));
+	EXPECT_GE(stableTimeStep(held, nodalStiffness(held), held.state.inertia), stableTimeStep(a, nodalStiffness(a), a.state.inertia));
 }
 
 TEST(TimeStep, DrivenNodesDoNotCount)
@@ -222,12 +222,12 @@ TEST(TimeStep, DrivenNodesDoNotCount)
 	BlockAssembly     a = column(2, 0.5, 0.2, 2, 1, stone(), elasticJoint(100e9, 40e9));
 	std::vector<Real> K = nodalStiffness(a);
 	K[4] *= 1e6; // makes this node the fastest by far
-	const Real fast = stableTimeStep(a, K, a.inertia);
-	EXPECT_NEAR(fast, 2 * std::sqrt(a.inertia[4] / K[4]), 8 * eps * fast);
+	const Real fast = stableTimeStep(a, K, a.state.inertia);
+	EXPECT_NEAR(fast, 2 * std::sqrt(a.state.inertia[4] / K[4]), 8 * eps * fast);
 	a.addGroup(driven("x", { 8 }, 0));
-	EXPECT_EQ(stableTimeStep(a, K, a.inertia), fast); // y is still free
+	EXPECT_EQ(stableTimeStep(a, K, a.state.inertia), fast); // y is still free
 	a.addGroup(driven("y", { 9 }, 0));
-	EXPECT_GT(stableTimeStep(a, K, a.inertia), 100 * fast);
+	EXPECT_GT(stableTimeStep(a, K, a.state.inertia), 100 * fast);
 }
 
 TEST(TimeStep, RefusesBadInput)
@@ -237,7 +237,7 @@ TEST(TimeStep, RefusesBadInput)
 	expectRefusal([&] { scaleInertia(a, K, 0, 0.7); }, { "time step", "positive [s]", "got 0" });
 	expectRefusal([&] { scaleInertia(a, K, std::nan(""), 0.7); }, { "time step", "nan" });
 	expectRefusal([&] { scaleInertia(a, K, 1, -0.5); }, { "safety", "positive", "got -0.5" });
-	EXPECT_EQ(a.inertia, a.mass);
+	EXPECT_EQ(a.state.inertia, a.mesh.mass);
 }
 
 TEST(Convergence, StandingPWaveBar)

@@ -2,7 +2,8 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <blocks/kernel/analysis/ElasticJump.hpp>
-#include <blocks/kernel/step/NodalForces.hpp>
+#include <blocks/kernel/step/Step.hpp>
+#include <blocks/kernel/step/ZoneForces.hpp>
 #include <limits>
 
 namespace blocks {
@@ -22,7 +23,7 @@ namespace {
 			: of(2 * a.nodeCount(), prescribed)
 		{
 			std::vector<char> grouped(of.size(), false);
-			for (const MotionGroup& g : a.groups) {
+			for (const MotionGroup& g : a.state.groups) {
 				const int shared = g.drive == MotionGroup::Drive::force ? count++ : prescribed;
 				for (int dof : g.dofs)
 					of[dof] = shared, grouped[dof] = true;
@@ -66,16 +67,15 @@ namespace {
 	void addZones(const BlockAssembly& a, LinearSystem& system)
 	{
 		for (int block = 0; block < a.blockCount(); ++block) {
-			const Material& material = a.materials[a.blockMaterial[block]];
-			const Moduli    m        = planeModuli(material.young, material.poisson, a.plane);
-			for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z) {
-				const ZoneGradients& s    = a.zoneGradient[z];
+			const Moduli m = moduliOf(a, block);
+			for (int z = a.mesh.firstZone[block]; z < a.mesh.firstZone[block + 1]; ++z) {
+				const ZoneGradients s    = a.mesh.zoneGradient[z];
 				const Vec2           g[3] = { { -s.g1x - s.g2x, -s.g1y - s.g2y }, { s.g1x, s.g1y }, { s.g2x, s.g2y } };
 				for (int i = 0; i < 3; ++i)
 					for (int j = 0; j < 3; ++j) {
 						Eigen::Matrix<Real, 2, 2> k = m.lambda * g[i] * g[j].transpose() + m.mu * g[j] * g[i].transpose();
 						k.diagonal().array() += m.mu * g[i].dot(g[j]);
-						system.add(a.zoneNodes[z][i], a.zoneNodes[z][j], a.zoneVolume[z] * k);
+						system.add(a.mesh.zoneNodes[z][i], a.mesh.zoneNodes[z][j], a.mesh.zoneVolume[z] * k);
 					}
 			}
 		}
@@ -83,39 +83,41 @@ namespace {
 
 	void addJoints(const BlockAssembly& a, LinearSystem& system)
 	{
-		for (size_t pair = 0; pair < a.pairs.size(); ++pair)
-			for (int s = a.pairs[pair].first; s < a.pairs[pair].last; ++s) {
-				const Segment&                  g = a.segments[s];
-				const SegmentFrame&             f = a.frames[s];
-				const Vec2                      n(f.nx, f.ny), t(-f.ny, f.nx);
-				const Eigen::Matrix<Real, 2, 2> k = g.area * (a.joints[pair].kn * n * n.transpose() + a.joints[pair].ks * t * t.transpose());
-				for (int p : { 0, 1 }) {
-					const Real weight[4] = { g.s1[p] - 1, -g.s1[p], 1 - g.s2[p], g.s2[p] };
-					for (int i = 0; i < 4; ++i)
-						for (int j = 0; j < 4; ++j)
-							system.add(g.node[i], g.node[j], weight[i] * weight[j] * k);
-				}
+		for (int s = 0; s < a.joints.count(); ++s) {
+			const Segment&                  g = a.joints.segments[s];
+			const JointFrame                f = frameOf(a, s);
+			const Vec2                      n(f.nx, f.ny), t(-f.ny, f.nx);
+			const Eigen::Matrix<Real, 2, 2> k = g.area * (a.joints.of(s).kn * n * n.transpose() + a.joints.of(s).ks * t * t.transpose());
+			for (int p : { 0, 1 }) {
+				const Real weight[4] = { g.s1[p] - 1, -g.s1[p], 1 - g.s2[p], g.s2[p] };
+				for (int i = 0; i < 4; ++i)
+					for (int j = 0; j < 4; ++j)
+						system.add(g.node[i], g.node[j], weight[i] * weight[j] * k);
 			}
+		}
 	}
+
+	/// As if nothing ever broke.
+	struct Elastic {
+		JointStep operator()(const JointParams& p, const JointState& s, Real opening, Real slip) const
+		{
+			return { p.kn * (opening - s.uplift), p.ks * (slip - s.slipPlastic), s };
+		}
+	};
 
 	/// Joint stresses and nodal forces at the present positions, as long as everything holds.
 	void elasticForces(BlockAssembly& a)
 	{
-		updateKinematics(a, 0, int(a.segments.size()));
-		for (int pair = 0; pair < int(a.pairs.size()); ++pair)
-			advanceJoints(a, pair, [](const JointParams& p, const JointState& s, Real opening, Real slip) {
-				return JointStep { p.kn * (opening - s.uplift), p.ks * (slip - s.slipPlastic), s };
-			});
-		computeJointForces(a);
-		gatherForces(a);
+		advanceJoints(a, Elastic {});
+		sumForces(a);
 	}
 
 	Vector unbalanced(const BlockAssembly& a, const Unknowns& unknowns)
 	{
 		Vector sum = Vector::Zero(unknowns.count);
 		for (size_t dof = 0; dof < unknowns.of.size(); ++dof)
-			if (unknowns.of[dof] >= 0) sum[unknowns.of[dof]] += a.force[dof / 2][dof % 2];
-		for (const MotionGroup& g : a.groups)
+			if (unknowns.of[dof] >= 0) sum[unknowns.of[dof]] += a.forces.nodal[dof / 2][dof % 2];
+		for (const MotionGroup& g : a.state.groups)
 			if (g.drive == MotionGroup::Drive::force) sum[unknowns.of[g.dofs.front()]] += g.target;
 		return sum;
 	}
@@ -131,8 +133,8 @@ namespace {
 	Real sizeOf(const BlockAssembly& a)
 	{
 		Real size = 0;
-		for (const Vec2& x : a.reference)
-			size = std::max(size, (x - a.reference[0]).norm());
+		for (const Vec2& x : a.mesh.reference)
+			size = std::max(size, (x - a.mesh.reference[0]).norm());
 		return size;
 	}
 
@@ -147,10 +149,10 @@ namespace {
 		for (int round = 0; round < rounds; ++round) {
 			const auto step = onGridPoints(unknowns, factors.solve(unbalanced(a, unknowns)), still);
 			for (int n = 0; n < a.nodeCount(); ++n)
-				a.position[n] += step[n];
+				a.state.displacement[n] += step[n];
 			elasticForces(a);
 		}
-		for (const auto& f : a.segmentForce)
+		for (const auto& f : a.forces.joint)
 			scale = std::max(scale, f[0].norm());
 		const Real stiffest = factors.rows() > 0 ? factors.vectorD().maxCoeff() : 0;
 		const Real rounding = 1e3 * std::numeric_limits<Real>::epsilon() * stiffest * sizeOf(a);
@@ -174,19 +176,20 @@ namespace {
 
 	void requireIntact(const BlockAssembly& a)
 	{
-		if (!a.rigid.empty())
+		if (!a.state.rigid.empty())
 			throw std::runtime_error(
-				"no elastic jump: block " + std::to_string(a.rigid.front().block)
+				"no elastic jump: block " + std::to_string(a.state.rigid.front().block)
 				+ " is rigid, and how rigid blocks move is not known beforehand");
-		for (size_t pair = 0; pair < a.pairs.size(); ++pair) {
-			const std::string who
-				= "the joint between blocks " + std::to_string(a.pairs[pair].block[0]) + " and " + std::to_string(a.pairs[pair].block[1]);
-			if (!(a.joints[pair].kn > 0)) throw std::runtime_error("no elastic jump: " + who + " has no properties yet; run one step first");
-			for (int i = 2 * a.pairs[pair].first; i < 2 * a.pairs[pair].last; ++i)
-				if (a.points[i].joint.status != Joint::intact)
+		for (int i = 0; i < a.joints.count(); ++i) {
+			const auto&       block = a.joints.segments[i].block;
+			const std::string who   = "the joint between blocks " + std::to_string(block[0]) + " and " + std::to_string(block[1]);
+			if (a.joints.kind[i] == 0)
+				throw std::runtime_error("no elastic jump: " + who + " has no properties yet; give them to bond(), or run one step first");
+			for (int p : { 2 * i, 2 * i + 1 })
+				if (a.state.status[p] != Joint::intact)
 					throw std::runtime_error("no elastic jump: " + who + " is not bonded, so the answer is not linear");
 		}
-		for (const FreeContact& c : a.contacts.all)
+		for (const FreeContact& c : a.state.contacts)
 			if (!c.active.empty())
 				throw std::runtime_error(
 					"no elastic jump: blocks " + std::to_string(c.block[0]) + " and " + std::to_string(c.block[1])
@@ -202,48 +205,34 @@ namespace {
 	}
 
 	/// The point that fails first, and when, by the stresses now and those before `time` of loading.
-	ElasticJump firstFailure(const BlockAssembly& a, const std::vector<ContactPoint>& before, Real time)
+	ElasticJump firstFailure(const BlockAssembly& a, const State& before, Real time)
 	{
-		ElasticJump first { std::numeric_limits<Real>::infinity(), -1 };
-		for (size_t pair = 0; pair < a.pairs.size(); ++pair)
-			for (int i = 2 * a.pairs[pair].first; i < 2 * a.pairs[pair].last; ++i) {
-				const ContactPoint &was = before[i], &is = a.points[i];
-				const Real when = timeToFailure(a.joints[pair], was.sigma, was.tau, (is.sigma - was.sigma) / time, (is.tau - was.tau) / time);
-				if (when < first.time) first = { when, i };
-			}
+		ElasticJump  first { std::numeric_limits<Real>::infinity(), -1 };
+		const State& now = a.state;
+		for (int i = 0; i < a.pointCount(); ++i) {
+			const Real sigma = before.sigma[i], tau = before.tau[i];
+			const Real when = timeToFailure(a.joints.ofPoint(i), sigma, tau, (now.sigma[i] - sigma) / time, (now.tau[i] - tau) / time);
+			if (when < first.time) first = { when, i };
+		}
 		return first;
 	}
 
 	/// Force that velocity-driven groups put on the blocks.
 	void takeReactions(BlockAssembly& a)
 	{
-		for (MotionGroup& g : a.groups) {
+		for (MotionGroup& g : a.state.groups) {
 			if (g.drive == MotionGroup::Drive::force) continue;
 			g.force = 0;
 			for (int dof : g.dofs)
-				g.force -= a.force[dof / 2][dof % 2];
+				g.force -= a.forces.nodal[dof / 2][dof % 2];
 		}
 	}
-
-	/// Everything that the jump changes, put back where it cannot be done.
-	struct Untouched {
-		BlockAssembly&            a;
-		std::vector<Vec2>         position = a.position, force = a.force;
-		std::vector<ContactPoint> points = a.points;
-		std::vector<MotionGroup>  groups = a.groups;
-
-		void restore()
-		{
-			a.position = position, a.force = force, a.points = points, a.groups = groups;
-			updateKinematics(a, 0, int(a.segments.size()));
-		}
-	};
 
 	/// The displacement per second of every grid point in a velocity-driven group.
 	std::vector<Vec2> drivenVelocities(const BlockAssembly& a)
 	{
 		std::vector<Vec2> driven(a.nodeCount(), Vec2::Zero());
-		for (const MotionGroup& g : a.groups)
+		for (const MotionGroup& g : a.state.groups)
 			if (g.drive == MotionGroup::Drive::velocity)
 				for (int dof : g.dofs)
 					driven[dof / 2][dof % 2] = g.target * g.throttle;
@@ -253,12 +242,12 @@ namespace {
 	/// Dead loads and forces, fully.
 	void applyLoads(BlockAssembly& a, const Unknowns& unknowns, const Eigen::SimplicialLDLT<Sparse>& factors)
 	{
-		const std::vector<Vec2> start = a.position;
+		const std::vector<Vec2> start = a.state.displacement;
 		balance(a, unknowns, factors);
-		for (MotionGroup& g : a.groups) {
+		for (MotionGroup& g : a.state.groups) {
 			if (g.drive != MotionGroup::Drive::force) continue;
 			const int  node = g.dofs.front() / 2, axis = g.dofs.front() % 2;
-			const Real moved = a.position[node][axis] - start[node][axis], work = (g.force + g.target) / 2 * moved;
+			const Real moved = a.state.displacement[node][axis] - start[node][axis], work = (g.force + g.target) / 2 * moved;
 			g.travelled += moved;
 			g.work += work;
 			g.workTurnover += std::abs(work);
@@ -270,11 +259,10 @@ namespace {
 	/// Loading along `rate` until just before the first failure.
 	ElasticJump applyLoading(BlockAssembly& a, const std::vector<Vec2>& rate, Real fraction)
 	{
-		const auto start  = a.position;
-		const auto before = a.points;
+		const State before = a.state;
 		auto       moveTo = [&](Real time) {
                         for (int n = 0; n < a.nodeCount(); ++n)
-                                a.position[n] = start[n] + time * rate[n];
+                                a.state.displacement[n] = before.displacement[n] + time * rate[n];
                         elasticForces(a);
 		};
 		Real fastest = 0;
@@ -298,12 +286,12 @@ namespace {
 	void setInMotion(BlockAssembly& a, const std::vector<Vec2>& rate, Real loadingTime, Real now)
 	{
 		std::vector<Real> before;
-		for (const MotionGroup& g : a.groups)
+		for (const MotionGroup& g : a.state.groups)
 			before.push_back(g.force);
 		takeReactions(a);
-		a.velocity = rate;
-		for (size_t i = 0; i < a.groups.size(); ++i) {
-			MotionGroup& g   = a.groups[i];
+		a.state.velocity = rate;
+		for (size_t i = 0; i < a.state.groups.size(); ++i) {
+			MotionGroup& g   = a.state.groups[i];
 			g.velocity       = rate[g.dofs.front() / 2][g.dofs.front() % 2];
 			const Real moved = g.velocity * loadingTime, work = (before[i] + g.force) / 2 * moved;
 			g.travelled += moved;
@@ -334,7 +322,8 @@ ElasticJump elasticJump(BlockAssembly& a, Real fraction, Real time)
 	const Eigen::SimplicialLDLT<Sparse> factors(stiffness);
 	requireHeld(factors);
 
-	Untouched before { a };
+	const State             before = a.state; // put back where the jump cannot be done
+	const std::vector<Vec2> forces = a.forces.nodal;
 	try {
 		applyLoads(a, unknowns, factors);
 		const std::vector<Vec2> rate = onGridPoints(unknowns, factors.solve(system.pull), driven);
@@ -343,7 +332,8 @@ ElasticJump elasticJump(BlockAssembly& a, Real fraction, Real time)
 		setInMotion(a, rate, jump.time, time);
 		return jump;
 	} catch (...) {
-		before.restore();
+		a.restore(before);
+		a.forces.nodal = forces;
 		throw;
 	}
 }

@@ -12,8 +12,8 @@ namespace {
 	Real squareToOutline(const BlockAssembly& a, int block, const Vec2& p)
 	{
 		Real least = std::numeric_limits<Real>::infinity();
-		for (int e = a.firstEdge[block]; e < a.firstEdge[block + 1]; ++e) {
-			const Vec2 from = a.reference[a.edgeNodes[e][0]], along = a.reference[a.edgeNodes[e][1]] - from;
+		for (int e = a.mesh.firstEdge[block]; e < a.mesh.firstEdge[block + 1]; ++e) {
+			const Vec2 from = a.mesh.reference[a.mesh.edgeNodes[e][0]], along = a.mesh.reference[a.mesh.edgeNodes[e][1]] - from;
 			const Real s = std::min(Real(1), std::max(Real(0), (p - from).dot(along) / along.squaredNorm()));
 			least        = std::min(least, (p - from - s * along).squaredNorm());
 		}
@@ -25,22 +25,22 @@ namespace {
 void OverlapWatch::measure(const BlockAssembly& a)
 {
 	std::vector<int> next(a.nodeCount(), -1); // along the outline, material on the left, as zones have it
-	for (const auto& [from, to] : a.edgeNodes)
+	for (const auto& [from, to] : a.mesh.edgeNodes)
 		next[from] = to;
 	zoneHeight.assign(a.nodeCount(), std::numeric_limits<Real>::infinity());
 	innermost.assign(a.blockCount(), { -1, -1, -1 });
 	for (int block = 0; block < a.blockCount(); ++block) {
 		Real farthest = 0;
 		auto consider = [&](const std::array<int, 3>& point) {
-			const Real square = squareToOutline(a, block, meanOf(a.reference, point));
+			const Real square = squareToOutline(a, block, meanOf(a.mesh.reference, point));
 			if (square > farthest) farthest = square, innermost[block] = point;
 		};
-		for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z) {
-			const auto& node = a.zoneNodes[z];
+		for (int z = a.mesh.firstZone[block]; z < a.mesh.firstZone[block + 1]; ++z) {
+			const auto& node = a.mesh.zoneNodes[z];
 			consider(node);
 			for (int i = 0; i < 3; ++i) {
 				const int from = node[i], to = node[(i + 1) % 3];
-				if (next[from] == to) zoneHeight[from] = 2 * a.zoneVolume[z] / a.thickness / (a.reference[to] - a.reference[from]).norm();
+				if (next[from] == to) zoneHeight[from] = 2 * a.mesh.zoneVolume[z] / a.thickness / (a.mesh.reference[to] - a.mesh.reference[from]).norm();
 				if (next[from] < 0) consider({ from, from, from });
 			}
 		}
@@ -51,10 +51,11 @@ void OverlapWatch::measure(const BlockAssembly& a)
 bool OverlapWatch::entered(const BlockAssembly& a, int block, int other) const
 {
 	if (innermost[block][0] < 0) return false;
-	const Vec2 p   = meanOf(a.position, innermost[block]);
+	const auto& n = innermost[block];
+	const Vec2  p = (a.position(n[0]) + a.position(n[1]) + a.position(n[2])) / 3;
 	bool       odd = false;
-	for (int e = a.firstEdge[other]; e < a.firstEdge[other + 1]; ++e) {
-		const Vec2 &from = a.position[a.edgeNodes[e][0]], &to = a.position[a.edgeNodes[e][1]];
+	for (int e = a.mesh.firstEdge[other]; e < a.mesh.firstEdge[other + 1]; ++e) {
+		const Vec2 from = a.position(a.mesh.edgeNodes[e][0]), to = a.position(a.mesh.edgeNodes[e][1]);
 		if ((from.y() > p.y()) != (to.y() > p.y()) && p.x() < from.x() + (p.y() - from.y()) / (to.y() - from.y()) * (to.x() - from.x())) odd = !odd;
 	}
 	return odd;
@@ -73,12 +74,12 @@ void OverlapWatch::look(const BlockAssembly& a)
 	};
 
 	Real closed = 0, shares = 0; // areas of joints, and times their shares [m2]
-	for (const Pair& pair : a.pairs) {
+	for (const Pair& pair : a.joints.pairs) {
 		Overlap worst;
 		for (int i = pair.first; i < pair.last; ++i) {
-			const Segment& g     = a.segments[i];
-			const Real     depth = -std::min(a.points[2 * i].opening, a.points[2 * i + 1].opening);
-			if (!(depth > 0) || g.released()) continue;
+			const Segment& g     = a.joints.segments[i];
+			const Real     depth = -std::min(a.state.opening[2 * i], a.state.opening[2 * i + 1]);
+			if (!(depth > 0) || a.state.released[i]) continue;
 			const Real height = std::min(zoneHeight[g.node[0]], zoneHeight[g.node[2]]);
 			worst.raise(pair.block, depth, height);
 			closed += g.area, shares += g.area * depth / height;
@@ -88,7 +89,7 @@ void OverlapWatch::look(const BlockAssembly& a)
 	}
 	mean = closed > 0 ? shares / closed : 0;
 	for (int i : a.contacts.order) {
-		const FreeContact& c = a.contacts.all[i];
+		const FreeContact& c = a.state.contacts[i];
 		Overlap            worst;
 		for (int index : c.active) {
 			const EdgePair& e = c.edges[index];
@@ -99,8 +100,8 @@ void OverlapWatch::look(const BlockAssembly& a)
 	}
 
 	for (int z = 0; z < a.zoneCount() && inverted < 0; ++z) {
-		const auto& node = a.zoneNodes[z];
-		if (!(cross(a.position[node[1]] - a.position[node[0]], a.position[node[2]] - a.position[node[0]]) > 0)) inverted = a.blockOfNode(node[0]);
+		const auto& node = a.mesh.zoneNodes[z];
+		if (!(cross(a.between(node[0], node[1]), a.between(node[0], node[2])) > 0)) inverted = a.blockOfNode(node[0]);
 	}
 }
 

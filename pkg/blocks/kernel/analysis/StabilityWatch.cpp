@@ -11,10 +11,10 @@ namespace {
 		int  fastest = 0;
 		Real most    = -1;
 		for (int n = 0; n < a.nodeCount(); ++n)
-			if (a.inertia[n] * a.velocity[n].squaredNorm() > most) most = a.inertia[n] * a.velocity[n].squaredNorm(), fastest = a.blockOfNode(n);
-		for (const RigidBlock& r : a.rigid) {
+			if (a.state.inertia[n] * a.state.velocity[n].squaredNorm() > most) most = a.state.inertia[n] * a.state.velocity[n].squaredNorm(), fastest = a.blockOfNode(n);
+		for (const RigidBlock& r : a.state.rigid) {
 			const Real energy = (r.inertia * r.velocity.head<2>().squaredNorm() + r.rotaryInertia * r.velocity[2] * r.velocity[2])
-				/ (a.firstNode[r.block + 1] - a.firstNode[r.block]);
+				/ (a.mesh.firstNode[r.block + 1] - a.mesh.firstNode[r.block]);
 			if (energy > most) most = energy, fastest = r.block;
 		}
 		return fastest;
@@ -42,14 +42,14 @@ namespace {
 		Real power = 0;
 		for (int n = 0; n < a.nodeCount(); ++n)
 			for (int axis : { 0, 1 })
-				if (a.mobility[n][axis] > 0) power += a.velocity[n][axis] * a.force[n][axis];
-		for (const MotionGroup& g : a.groups) {
+				if (a.supports.mobility[n][axis] > 0) power += a.state.velocity[n][axis] * a.forces.nodal[n][axis];
+		for (const MotionGroup& g : a.state.groups) {
 			if (g.drive == MotionGroup::Drive::velocity) continue;
 			power += g.velocity * g.target * g.ramp(time);
 			for (int dof : g.dofs)
-				power += g.velocity * a.force[dof / 2][dof % 2];
+				power += g.velocity * a.forces.nodal[dof / 2][dof % 2];
 		}
-		for (const RigidBlock& r : a.rigid)
+		for (const RigidBlock& r : a.state.rigid)
 			for (int i = 0; i < 3; ++i)
 				if (r.free[i]) power += r.velocity[i] * r.force[i];
 		return power * dt / 2;
@@ -76,16 +76,16 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 	}
 
 	Real turnover = 0;
-	for (const MotionGroup& g : a.groups)
+	for (const MotionGroup& g : a.state.groups)
 		turnover += g.workTurnover;
-	for (const RigidBlock& r : a.rigid)
+	for (const RigidBlock& r : a.state.rigid)
 		turnover += r.workTurnover;
 	const Real loads = loadWork(a), swinging = zoneEnergy(a) + jointEnergy(a) + kineticEnergy(a), energy = swinging + kineticChange(a, time, dt);
 	if (!begun) {
 		roundingEnergy = 0;
 		for (int block = 0; block < a.blockCount(); ++block)
-			for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z)
-				roundingEnergy += a.materials[a.blockMaterial[block]].young * a.zoneVolume[z] * roundingStrain * roundingStrain;
+			for (int z = a.mesh.firstZone[block]; z < a.mesh.firstZone[block + 1]; ++z)
+				roundingEnergy += a.mesh.materials[a.mesh.blockMaterial[block]].young * a.mesh.zoneVolume[z] * roundingStrain * roundingStrain;
 		baseline = energy - groupWork(a) - rigidWork(a) - loads;
 		begun    = true;
 		compared = step;
@@ -98,15 +98,9 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 		return { false, fastestBlock(a), "energy grew without work, to " + shown(swinging) + " J where " + shown(energy - excess) + " J were put in" };
 	}
 	if (excess <= tolerance * scale) {
-		lastGood.step     = step;
-		lastGood.time     = time;
-		lastGood.position = a.position;
-		lastGood.velocity = a.velocity;
-		lastGood.points   = a.points;
-		lastGood.groups   = a.groups;
-		lastGood.rigid    = a.rigid;
-		if (!a.contacts.order.empty() || !lastGood.contacts.order.empty() || lastGood.segments.size() != a.segments.size())
-			lastGood.contacts = a.contacts, lastGood.segments = a.segments;
+		goodAt   = step;
+		when     = time;
+		lastGood = a.state;
 	}
 	if (compare) lastExcess = excess, compared = step;
 	Verdict good;
@@ -124,16 +118,8 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 
 long StabilityWatch::restore(BlockAssembly& a) const
 {
-	if (lastGood.step < 0) return -1;
-	a.position = lastGood.position;
-	a.velocity = lastGood.velocity;
-	a.points   = lastGood.points;
-	a.groups   = lastGood.groups;
-	a.rigid    = lastGood.rigid;
-	a.contacts = lastGood.contacts;
-	a.segments = lastGood.segments;
-	a.listSides();
-	return lastGood.step;
+	if (goodAt >= 0) a.restore(lastGood);
+	return goodAt;
 }
 
 } // namespace blocks

@@ -39,21 +39,13 @@ public:
 
 	/// Puts the last good state back; the step it belongs to, or -1 if there was none.
 	long restore(BlockAssembly&) const;
-	Real goodTime() const { return lastGood.time; }
-	long goodStep() const { return lastGood.step; }
+	Real goodTime() const { return when; }
+	long goodStep() const { return goodAt; }
 	bool started() const { return begun; }
 
 private:
-	struct State {
-		long                      step = -1;
-		Real                      time = 0;
-		std::vector<Vec2>         position, velocity;
-		std::vector<ContactPoint> points;
-		std::vector<MotionGroup>  groups;
-		std::vector<RigidBlock>   rigid;
-		FreeContacts              contacts; ///< and the segments, whose areas end with their release
-		std::vector<Segment>      segments;
-	};
+	long         goodAt = -1;
+	Real         when   = 0; ///< of the last good state [s]
 	State        lastGood;
 	OverlapWatch overlaps;
 	bool         begun          = false;

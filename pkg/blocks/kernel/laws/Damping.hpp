@@ -13,7 +13,6 @@ struct Damping {
 	};
 	Kind kind  = Kind::local;
 	Real alpha = 0.3; ///< of the local damping [-]
-	Real c     = 0;   ///< of the adaptive damping, what it has come to [1/s]
 
 	/// Smallest c that the adaptive damping starts from, as a fraction of 1/dt; 500 steps of 2 % lead from there to 1/dt.
 	static constexpr Real floorFraction = 5e-5;

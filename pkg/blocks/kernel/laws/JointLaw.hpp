@@ -22,6 +22,13 @@ struct JointParams {
 	Real tensionResidual   = 0;                                ///< [Pa]
 	Real tanDilation       = 0;                                ///< tangent of the dilation angle [-]
 	Real dilationLimitSlip = std::numeric_limits<Real>::max(); ///< slip beyond which the joint dilates no further [m]
+
+	bool operator==(const JointParams& o) const
+	{
+		return kn == o.kn && ks == o.ks && cohesion == o.cohesion && tanPhi == o.tanPhi && tension == o.tension && cohesionResidual == o.cohesionResidual
+			&& tanPhiResidual == o.tanPhiResidual && tensionResidual == o.tensionResidual && tanDilation == o.tanDilation
+			&& dilationLimitSlip == o.dilationLimitSlip;
+	}
 };
 
 /// Refuses properties that no joint can have.

@@ -41,17 +41,19 @@ struct ZoneStrain {
 	Real c, s;
 };
 
-/// F = sum x_i (x) grad N_i from the edge vectors p = x1 - x0, q = x2 - x0; then F = R U with the closed form of two dimensions.
+/// F = 1 + H, H = sum u_i (x) grad N_i, from the displacements p and q of nodes 1 and 2 less that of node 0; then F = R U with the closed
+/// form of two dimensions. Displacements and not positions: so strains are as exact far from the origin as near it.
 template <Strain kind> inline ZoneStrain zoneStrain(const ZoneGradients& g, Real px, Real py, Real qx, Real qy)
 {
-	const Real fxx = px * g.g1x + qx * g.g2x, fxy = px * g.g1y + qx * g.g2y;
-	const Real fyx = py * g.g1x + qy * g.g2x, fyy = py * g.g1y + qy * g.g2y;
-	if constexpr (kind == Strain::small) return { fxx - 1, fyy - 1, (fxy + fyx) / 2, 1, 0 };
+	const Real hxx = px * g.g1x + qx * g.g2x, hxy = px * g.g1y + qx * g.g2y;
+	const Real hyx = py * g.g1x + qy * g.g2x, hyy = py * g.g1y + qy * g.g2y;
+	if constexpr (kind == Strain::small) return { hxx, hyy, (hxy + hyx) / 2, 1, 0 };
 
-	const Real trace = fxx + fyy, skew = fyx - fxy;
+	const Real fxx = 1 + hxx, fyy = 1 + hyy;
+	const Real trace = fxx + fyy, skew = hyx - hxy;
 	const Real inverse = 1 / std::sqrt(trace * trace + skew * skew);
 	const Real c = trace * inverse, s = skew * inverse;
-	return { c * fxx + s * fyx - 1, c * fyy - s * fxy - 1, (c * fxy + s * fyy + c * fyx - s * fxx) / 2, c, s };
+	return { c * fxx + s * hyx - 1, c * fyy - s * hxy - 1, (c * hxy + s * fyy + c * hyx - s * fxx) / 2, c, s };
 }
 
 struct ZoneStress {

@@ -1,7 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
 #include <blocks/kernel/model/BlockAssembly.hpp>
-#include <blocks/kernel/step/ContactKinematics.hpp>
+#include <blocks/kernel/laws/JointKinematics.hpp>
 #include <numeric>
 
 namespace blocks {
@@ -37,15 +37,15 @@ int BlockAssembly::addMaterial(const Material& m)
 	require(m.young > 0 && std::isfinite(m.young), "BlockMat.young must be positive and finite [Pa]", m.young);
 	require(m.poisson > -1 && m.poisson < 0.5, "BlockMat.poisson must lie in (-1, 0.5)", m.poisson);
 	require(m.density > 0 && std::isfinite(m.density), "BlockMat.density must be positive and finite [kg/m3]", m.density);
-	materials.push_back(m);
-	return int(materials.size()) - 1;
+	mesh.materials.push_back(m);
+	return int(mesh.materials.size()) - 1;
 }
 
 int BlockAssembly::addBlock(
 	const std::vector<Vec2>& points, const std::vector<std::vector<int>>& rings, const std::vector<std::array<int, 3>>& triangles, int material)
 {
 	require(thickness > 0 && std::isfinite(thickness), "thickness must be positive and finite [m]", thickness);
-	require(material >= 0 && material < int(materials.size()), "a block's material must be the index of a known one", material);
+	require(material >= 0 && material < int(mesh.materials.size()), "a block's material must be the index of a known one", material);
 	const int base = nodeCount(), count = int(points.size());
 	for (const Vec2& p : points)
 		require(p.allFinite(), "a block's points must be finite", p.allFinite() ? 0 : std::nan(""));
@@ -70,7 +70,7 @@ int BlockAssembly::addBlock(
 		const Real area = cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]) / 2;
 		require(area > 0, "a zone's area must be positive (counter-clockwise) [m2]", area);
 		for (int node : t)
-			nodalMass[node] += area * thickness * materials[material].density / 3;
+			nodalMass[node] += area * thickness * mesh.materials[material].density / 3;
 	}
 	if (!triangles.empty())
 		for (Real m : nodalMass)
@@ -86,106 +86,185 @@ int BlockAssembly::addBlock(
 		require(area.size > 0, "a rigid block's holes must be smaller than itself; area [m2]", area.size);
 		rigidBlock.block  = blockCount();
 		rigidBlock.origin = rigidBlock.centre = area.centroid;
-		rigidBlock.mass = rigidBlock.inertia = area.size * thickness * materials[material].density;
-		rigidBlock.moment = rigidBlock.rotaryInertia = area.second * thickness * materials[material].density;
+		rigidBlock.mass = rigidBlock.inertia = area.size * thickness * mesh.materials[material].density;
+		rigidBlock.moment = rigidBlock.rotaryInertia = area.second * thickness * mesh.materials[material].density;
 	}
 
 	// everything is as it should be: from here on nothing can fail half-way
 	for (const auto& t : triangles)
-		zoneNodes.push_back({ base + t[0], base + t[1], base + t[2] });
+		mesh.zoneNodes.push_back({ base + t[0], base + t[1], base + t[2] });
 	for (const auto& ring : rings)
 		for (size_t i = 0; i < ring.size(); ++i)
-			edgeNodes.push_back({ base + ring[i], base + ring[(i + 1) % ring.size()] });
-	reference.insert(reference.end(), points.begin(), points.end());
-	position.insert(position.end(), points.begin(), points.end());
-	velocity.resize(position.size(), Vec2::Zero());
-	force.resize(position.size(), Vec2::Zero());
-	mass.insert(mass.end(), nodalMass.begin(), nodalMass.end());
-	inertia.insert(inertia.end(), nodalMass.begin(), nodalMass.end());
+			mesh.edgeNodes.push_back({ base + ring[i], base + ring[(i + 1) % ring.size()] });
+	mesh.reference.insert(mesh.reference.end(), points.begin(), points.end());
+	mesh.mass.insert(mesh.mass.end(), nodalMass.begin(), nodalMass.end());
+	mesh.blockMaterial.push_back(material);
+	mesh.firstNode.push_back(nodeCount());
+	mesh.firstZone.push_back(zoneCount());
+	mesh.firstEdge.push_back(int(mesh.edgeNodes.size()));
+
+	state.displacement.resize(nodeCount(), Vec2::Zero());
+	state.velocity.resize(nodeCount(), Vec2::Zero());
+	state.inertia.insert(state.inertia.end(), nodalMass.begin(), nodalMass.end());
+	if (triangles.empty()) state.rigid.push_back(rigidBlock);
 	for (Real m : nodalMass)
-		mobility.push_back(Vec2::Constant(m > 0 ? 1 / m : 0));
-	if (!load.empty()) load.resize(position.size(), Vec2::Zero());
-	if (triangles.empty()) rigid.push_back(rigidBlock);
+		supports.mobility.push_back(Vec2::Constant(m > 0 ? 1 / m : 0));
+	if (!supports.load.empty()) supports.load.resize(nodeCount(), Vec2::Zero());
+	forces.nodal.resize(nodeCount(), Vec2::Zero());
 
-	rebuildZones(zoneCount() - int(triangles.size()));
-
-	blockMaterial.push_back(material);
-	firstNode.push_back(nodeCount());
-	firstZone.push_back(zoneCount());
-	firstEdge.push_back(int(edgeNodes.size()));
-	firstSide.push_back(int(sides.size()));
+	rebuildZones(blockCount() - 1);
+	joints.firstSide.push_back(int(joints.sides.size()));
 	return blockCount() - 1;
 }
 
-int BlockAssembly::blockOfNode(int node) const { return int(std::upper_bound(firstNode.begin(), firstNode.end(), node) - firstNode.begin()) - 1; }
+int BlockAssembly::blockOfNode(int node) const
+{
+	return int(std::upper_bound(mesh.firstNode.begin(), mesh.firstNode.end(), node) - mesh.firstNode.begin()) - 1;
+}
 
 Vec2 BlockAssembly::centroid(int block) const
 {
-	if (firstZone[block] == firstZone[block + 1])
-		return areaOf(position, edgeNodes.begin() + firstEdge[block], edgeNodes.begin() + firstEdge[block + 1]).centroid;
+	const int first = mesh.firstNode[block], last = mesh.firstNode[block + 1];
+	if (isRigid(block)) {
+		std::vector<Vec2> points;
+		for (int n = first; n < last; ++n)
+			points.push_back(between(first, n));
+		std::vector<std::array<int, 2>> edges(mesh.edgeNodes.begin() + mesh.firstEdge[block], mesh.edgeNodes.begin() + mesh.firstEdge[block + 1]);
+		for (auto& edge : edges)
+			edge[0] -= first, edge[1] -= first;
+		return position(first) + areaOf(points, edges.begin(), edges.end()).centroid;
+	}
 	Vec2 sum   = Vec2::Zero();
 	Real total = 0;
-	for (int n = firstNode[block]; n < firstNode[block + 1]; ++n) {
-		sum += mass[n] * (position[n] - position[firstNode[block]]);
-		total += mass[n];
+	for (int n = first; n < last; ++n) {
+		sum += mesh.mass[n] * between(first, n);
+		total += mesh.mass[n];
 	}
-	return position[firstNode[block]] + sum / total;
+	return position(first) + sum / total;
 }
 
 void BlockAssembly::bond(std::vector<Segment> found)
 {
 	std::stable_sort(found.begin(), found.end(), [](const Segment& a, const Segment& b) { return a.block < b.block; });
-	segments = std::move(found);
-	pairs.clear();
-	for (int i = 0; i < int(segments.size()); ++i) {
-		if (pairs.empty() || pairs.back().block != segments[i].block) pairs.push_back({ segments[i].block, i, i });
+	joints.segments = std::move(found);
+	joints.pairs.clear();
+	for (int i = 0; i < joints.count(); ++i) {
+		auto& pairs = joints.pairs;
+		if (pairs.empty() || pairs.back().block != joints.segments[i].block) pairs.push_back({ joints.segments[i].block, i, i });
 		pairs.back().last = i + 1;
 	}
-	joints.assign(pairs.size(), {});
-	points.assign(2 * segments.size(), {});
+	joints.kinds.assign(1, JointParams());
+	joints.kind.assign(joints.count(), 0);
+	for (auto* column : { &state.opening, &state.slip, &state.sigma, &state.tau, &state.slipPlastic, &state.uplift })
+		column->assign(pointCount(), 0);
+	state.status.assign(pointCount(), Joint::intact);
+	state.released.assign(joints.count(), false);
 	rebuildJoints();
-	for (size_t i = 0; i < points.size(); ++i) {
-		const Vec2 d          = hostDistance(segments[i / 2], frames[i / 2], position.data(), int(i % 2));
-		points[i].bondOpening = d.x();
-		points[i].bondSlip    = d.y();
+}
+
+void BlockAssembly::setJoints(int first, int last, const JointParams& params, Joint status)
+{
+	validate(params);
+	constexpr int remembered = 64; // where every joint has its own properties, looking for equal ones is in vain
+	auto&         kinds      = joints.kinds;
+	const auto    known      = std::find(kinds.end() - std::min(int(kinds.size()), remembered), kinds.end(), params);
+	const int     kind       = int(known - kinds.begin());
+	if (known == kinds.end()) kinds.push_back(params);
+	for (int i = first; i < last; ++i) {
+		joints.kind[i] = kind;
+		for (int k : { 0, 1 })
+			state.status[2 * i + k] = status;
+	}
+	noteKinds(first, last);
+}
+
+void BlockAssembly::releaseJoint(int joint)
+{
+	state.released[joint] = true;
+	noteKinds(joint, joint + 1);
+}
+
+void BlockAssembly::noteKinds(int first, int last)
+{
+	for (int i = first; i < last; ++i) {
+		joints.effective[i]    = state.released[i] ? releasedKind : joints.kind[i];
+		joints.columns.area[i] = state.released[i] ? 0 : joints.segments[i].area;
+	}
+	for (int b = first / Joints::batch; b * Joints::batch < last; ++b) {
+		const auto begin = joints.effective.begin() + b * Joints::batch;
+		const auto end   = joints.effective.begin() + std::min((b + 1) * Joints::batch, joints.count());
+		joints.kindOfBatch[b] = std::all_of(begin, end, [&](int kind) { return kind == *begin; }) ? *begin : mixedKinds;
 	}
 }
 
-void BlockAssembly::rebuildZones(int first)
+void BlockAssembly::rebuildZones(int firstBlock)
 {
-	zoneGradient.resize(zoneCount());
-	zoneVolume.resize(zoneCount());
-	for (int z = first; z < zoneCount(); ++z) {
-		const Vec2 &x0 = reference[zoneNodes[z][0]], &x1 = reference[zoneNodes[z][1]], &x2 = reference[zoneNodes[z][2]];
-		zoneGradient[z] = zoneGradients(x0, x1, x2);
-		zoneVolume[z]   = thickness * cross(x1 - x0, x2 - x0) / 2;
+	mesh.zoneGradient.resize(zoneCount());
+	mesh.zoneVolume.resize(zoneCount());
+	mesh.isFan.resize(blockCount());
+	for (int block = firstBlock; block < blockCount(); ++block) {
+		const int node = mesh.firstNode[block], corners = mesh.firstNode[block + 1] - node - 1, zone = mesh.firstZone[block];
+		bool      fan  = mesh.firstZone[block + 1] - zone == corners;
+		for (int z = zone; z < mesh.firstZone[block + 1]; ++z) {
+			const auto& n  = mesh.zoneNodes[z];
+			const Vec2 &x0 = mesh.reference[n[0]], &x1 = mesh.reference[n[1]], &x2 = mesh.reference[n[2]];
+			mesh.zoneGradient.set(z, zoneGradients(x0, x1, x2));
+			mesh.zoneVolume[z] = thickness * cross(x1 - x0, x2 - x0) / 2;
+			const int k        = z - zone;
+			fan                = fan && n[0] == node + k && n[1] == node + (k + 1) % corners && n[2] == node + corners;
+		}
+		mesh.isFan[block] = fan;
 	}
 }
 
 void BlockAssembly::rebuildJoints()
 {
-	const int count = int(segments.size());
-	frames.resize(count);
-	segmentForce.assign(count, { Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero() });
-	for (int i = 0; i < count; ++i)
-		frames[i] = segmentFrame(segments[i], position.data());
+	const int     count = joints.count(), batches = (count + Joints::batch - 1) / Joints::batch;
+	JointColumns& c     = joints.columns;
+	for (auto* column : { &c.e1x, &c.e1y, &c.e2x, &c.e2y, &c.dx, &c.dy, &c.area })
+		column->resize(count);
+	for (int k : { 0, 1 })
+		for (auto* column : { &c.s1[k], &c.s2[k], &c.bondOpening[k], &c.bondSlip[k] })
+			column->resize(count);
+	joints.node.resize(count);
+	joints.effective.resize(count);
+	joints.kindOfBatch.resize(batches);
+	forces.joint.assign(count, { Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero() });
+	forces.broke.assign(batches, false);
+	for (int i = 0; i < count; ++i) {
+		const Segment& g  = joints.segments[i];
+		const Vec2     e1 = mesh.reference[g.node[1]] - mesh.reference[g.node[0]], e2 = mesh.reference[g.node[3]] - mesh.reference[g.node[2]];
+		const Vec2     d  = mesh.reference[g.node[2]] - mesh.reference[g.node[0]];
+		joints.node[i]    = g.node;
+		c.e1x[i] = e1.x(), c.e1y[i] = e1.y(), c.e2x[i] = e2.x(), c.e2y[i] = e2.y(), c.dx[i] = d.x(), c.dy[i] = d.y();
+		const JointFrame f = jointFrame(e1.x(), e1.y(), e2.x(), e2.y());
+		for (int k : { 0, 1 }) {
+			const Vec2 gap      = d + g.s2[k] * e2 - g.s1[k] * e1;
+			c.s1[k][i]          = g.s1[k];
+			c.s2[k][i]          = g.s2[k];
+			c.bondOpening[k][i] = gap.x() * f.nx + gap.y() * f.ny;
+			c.bondSlip[k][i]    = gap.y() * f.nx - gap.x() * f.ny;
+		}
+	}
+	if (count > 0) noteKinds(0, count);
 	listSides();
 }
 
 void BlockAssembly::listSides()
 {
-	firstSide.assign(blockCount() + 1, 0);
-	for (const Segment& g : segments)
-		if (!g.released())
-			for (int block : g.block)
-				++firstSide[block + 1];
-	std::partial_sum(firstSide.begin(), firstSide.end(), firstSide.begin());
-	sides.resize(firstSide.back());
-	std::vector<int> next(firstSide.begin(), firstSide.end() - 1);
-	for (int i = 0; i < int(segments.size()); ++i)
-		if (!segments[i].released())
+	auto& first = joints.firstSide;
+	first.assign(blockCount() + 1, 0);
+	for (int i = 0; i < joints.count(); ++i)
+		if (!state.released[i])
+			for (int block : joints.segments[i].block)
+				++first[block + 1];
+	std::partial_sum(first.begin(), first.end(), first.begin());
+	joints.sides.resize(first.back());
+	std::vector<int> next(first.begin(), first.end() - 1);
+	for (int i = 0; i < joints.count(); ++i)
+		if (!state.released[i])
 			for (int side : { 0, 1 })
-				sides[next[segments[i].block[side]]++] = 2 * i + side;
+				joints.sides[next[joints.segments[i].block[side]]++] = 2 * i + side;
 }
 
 void BlockAssembly::rebuild()
@@ -193,7 +272,17 @@ void BlockAssembly::rebuild()
 	rebuildZones(0);
 	rebuildJoints();
 	rebuildContacts(*this);
-	mobility.resize(nodeCount());
+	forces.nodal.resize(nodeCount(), Vec2::Zero());
+	supports.mobility.resize(nodeCount());
+	updateMobility();
+}
+
+void BlockAssembly::restore(const State& earlier)
+{
+	state = earlier;
+	noteKinds(0, joints.count());
+	listSides();
+	rebuildContacts(*this);
 	updateMobility();
 }
 
@@ -208,32 +297,32 @@ int BlockAssembly::addGroup(MotionGroup group)
 		const int dof = group.dofs[i];
 		require(dof >= 0 && dof < 2 * nodeCount(), "motion group \"" + group.name + "\": no such degree of freedom", dof);
 		require(i == 0 || group.dofs[i - 1] != dof, "motion group \"" + group.name + "\" names a degree of freedom twice", dof);
-		require(mass[dof / 2] > 0,
+		require(mesh.mass[dof / 2] > 0,
 		        "motion group \"" + group.name + "\" holds a grid point of a rigid block, which moves with its body; grid point",
 		        dof / 2);
-		for (const MotionGroup& other : groups)
+		for (const MotionGroup& other : state.groups)
 			require(!std::binary_search(other.dofs.begin(), other.dofs.end(), dof),
 			        "motion group \"" + group.name + "\" overlaps \"" + other.name + "\" at degree of freedom (2 node + axis)",
 			        dof);
 	}
-	groups.push_back(std::move(group));
+	state.groups.push_back(std::move(group));
 	updateMobility();
-	return int(groups.size()) - 1;
+	return int(state.groups.size()) - 1;
 }
 
 void BlockAssembly::updateMobility()
 {
 	for (int n = 0; n < nodeCount(); ++n)
-		mobility[n] = Vec2::Constant(inertia[n] > 0 ? 1 / inertia[n] : 0);
-	for (const MotionGroup& g : groups)
+		supports.mobility[n] = Vec2::Constant(state.inertia[n] > 0 ? 1 / state.inertia[n] : 0);
+	for (const MotionGroup& g : state.groups)
 		for (int dof : g.dofs)
-			mobility[dof / 2][dof % 2] = 0;
+			supports.mobility[dof / 2][dof % 2] = 0;
 }
 
 int BlockAssembly::firstBadNode() const
 {
 	for (int n = 0; n < nodeCount(); ++n)
-		if (!position[n].allFinite() || !velocity[n].allFinite()) return n;
+		if (!state.displacement[n].allFinite() || !state.velocity[n].allFinite()) return n;
 	return -1;
 }
 

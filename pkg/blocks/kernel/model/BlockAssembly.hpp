@@ -1,124 +1,90 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
-#include <blocks/kernel/laws/JointLaw.hpp>
-#include <blocks/kernel/laws/Zone.hpp>
-#include <blocks/kernel/model/FreeContacts.hpp>
-#include <blocks/kernel/model/Motion.hpp>
-#include <blocks/kernel/model/RigidBlock.hpp>
+#include <blocks/kernel/model/Joints.hpp>
+#include <blocks/kernel/model/Mesh.hpp>
+#include <blocks/kernel/model/State.hpp>
 
-/// Everything hot, in flat arrays: one BlockAssembly holds all blocks of a scene.
+/// Everything hot, in flat arrays: one BlockAssembly holds all blocks of a scene, split by who changes it.
 namespace blocks {
 
-struct Material {
-	Real young   = 0; ///< [Pa]
-	Real poisson = 0; ///< [-]
-	Real density = 0; ///< [kg/m3]
+/// Loads and what follows from the groups.
+struct Supports {
+	std::vector<Vec2> load;     ///< dead load, gravity included; empty if there is none [N]
+	std::vector<Vec2> mobility; ///< 1 / inertia, and 0 where motion is prescribed [1/kg]
 };
 
-/// Where two boundary edges of two blocks overlap: a contact point at each end of the overlap, each with half its area.
-struct Segment {
-	std::array<int, 4>  node;  ///< edge a1 -> b1 of the first block, a2 -> b2 of the second
-	std::array<int, 2>  block; ///< first < second
-	std::array<Real, 2> s1;    ///< where the points are along the first block's edge (0 at a1, 1 at b1)
-	std::array<Real, 2> s2;    ///< where they are along the second's
-	Real                area;  ///< of each of the two points; 0 once the edges are a free pair [m2]
-
-	bool released() const { return area == 0; }
+/// What the joints of a batch dissipated in a step [J].
+struct Dissipated {
+	Real friction = 0; ///< of broken joints; dilation's work against the pressure is taken off
+	Real fracture = 0; ///< set free by contact points that broke
 };
 
-/// The frame of a segment, turning with its hosts: n bisects the two edge normals and points out of the first block.
-struct SegmentFrame {
-	Real nx = 0, ny = 0;   ///< unit normal; the tangent is n turned by +90 degrees
-	Real r1x = 0, r1y = 0; ///< n1 / L1, by which the first edge's nodes turn the frame [1/m]
-	Real r2x = 0, r2y = 0; ///< n2 / L2 [1/m]
-};
+/// Computed anew in each step.
+struct Forces {
+	std::vector<Vec2>                nodal; ///< unbalanced force of every grid point: zones, joints, contacts, loads [N]
+	std::vector<std::array<Vec2, 4>> joint; ///< of every joint, on a1, b1, a2, b2 [N]
+	std::vector<char>                broke; ///< batch of joints -> whether a contact point of it has broken lately
 
-struct ContactPoint {
-	Real       opening = 0, slip = 0;         ///< relative displacement since bonding, in the frame [m]
-	Real       sigma = 0, tau = 0;            ///< joint stresses [Pa]
-	Real       bondOpening = 0, bondSlip = 0; ///< distance of the hosts when they were bonded, in the frame [m]
-	JointState joint;
-};
-
-/// Segments [first, last) between one pair of blocks: what one YADE Interaction carries.
-struct Pair {
-	std::array<int, 2> block;
-	int                first, last;
+	// ---- only with energy accounts
+	std::vector<Dissipated> dissipated; ///< by the joints of every batch
+	std::vector<Real>       zoneEnergy; ///< of every block's zones [J]
 };
 
 struct BlockAssembly {
 	// ---- the whole
-	Real                  thickness = 1; ///< out of plane [m]
-	Plane                 plane     = Plane::strain;
-	Strain                strain    = Strain::large;
-	std::vector<Material> materials;
+	Real   thickness = 1; ///< out of plane [m]
+	Plane  plane     = Plane::strain;
+	Strain strain    = Strain::large;
 
-	// ---- grid points
-	std::vector<Vec2> reference; ///< positions without stress [m]
-	std::vector<Vec2> position;  ///< [m]
-	std::vector<Vec2> velocity;  ///< at the last half step [m/s]
-	std::vector<Vec2> force;     ///< unbalanced force: zones, joints, loads [N]
-	std::vector<Vec2> load;      ///< dead load, gravity included; empty if there is none [N]
-	std::vector<Real> mass;      ///< true mass; 0 for grid points of rigid blocks [kg]
-	std::vector<Real> inertia;   ///< mass that resists motion: the true or the scaled one [kg]
-	std::vector<Vec2> mobility;  ///< 1 / inertia, and 0 where motion is prescribed [1/kg]
+	Mesh         mesh;     ///< never changes once the blocks are in the scene
+	Joints       joints;   ///< changes where somebody sets properties, or joints become free contacts
+	Supports     supports; ///< changes where somebody sets loads, groups or masses
+	State        state;    ///< changes in every step
+	Forces       forces;   ///< computed anew in every step
+	FreeContacts contacts; ///< who may touch whom without a bond; empty in scenes without general contact
 
-	// ---- zones
-	std::vector<std::array<int, 3>> zoneNodes;
-	std::vector<ZoneGradients>      zoneGradient; ///< [1/m]
-	std::vector<Real>               zoneVolume;   ///< [m3]
-
-	// ---- blocks, as ranges
-	std::vector<int> firstNode { 0 }, firstZone { 0 }, firstEdge { 0 }; ///< one more entry than there are blocks
-	std::vector<int> blockMaterial;
-
-	// ---- blocks without zones
-	std::vector<RigidBlock> rigid; ///< in the order of the blocks
-
-	// ---- boundary edges, block by block: material on the left
-	std::vector<std::array<int, 2>> edgeNodes;
-
-	// ---- joints
-	std::vector<Segment>             segments; ///< sorted by pair
-	std::vector<SegmentFrame>        frames;
-	std::vector<ContactPoint>        points; ///< two a segment
-	std::vector<Pair>                pairs;
-	std::vector<JointParams>         joints;          ///< of each pair
-	std::vector<std::array<Vec2, 4>> segmentForce;    ///< on a1, b1, a2, b2 [N]
-	std::vector<int>                 firstSide { 0 }; ///< block -> its range in sides
-	std::vector<int>                 sides;           ///< 2 segment + side, in the order in which a block gathers them; not of released segments
-
-	// ---- blocks that touch without being bonded
-	FreeContacts contacts;
-	Odometer     odometer;
-
-	// ---- boundary conditions
-	std::vector<MotionGroup> groups;
-
-	int  blockCount() const { return int(blockMaterial.size()); }
-	int  nodeCount() const { return int(position.size()); }
-	int  zoneCount() const { return int(zoneNodes.size()); }
+	int  blockCount() const { return int(mesh.blockMaterial.size()); }
+	int  nodeCount() const { return int(mesh.reference.size()); }
+	int  zoneCount() const { return int(mesh.zoneNodes.size()); }
+	int  pointCount() const { return 2 * joints.count(); }
 	int  blockOfNode(int node) const;
+	bool isRigid(int block) const { return mesh.firstZone[block] == mesh.firstZone[block + 1]; }
 	Vec2 centroid(int block) const; ///< of the block's present mass [m]
+
+	/// Where a grid point is now [m].
+	Vec2 position(int node) const { return mesh.reference[node] + state.displacement[node]; }
+	/// From one grid point to another; exact far from the origin too, where positions are not [m].
+	Vec2 between(int from, int to) const
+	{
+		return mesh.reference[to] - mesh.reference[from] + (state.displacement[to] - state.displacement[from]);
+	}
+	/// Puts a grid point somewhere [m].
+	void place(int node, const Vec2& where) { state.displacement[node] = where - mesh.reference[node]; }
 
 	/// Checks and stores a material; its index.
 	int addMaterial(const Material&);
 
 	/// Adds a block and returns its index. `rings` are the boundary nodes, material on the left; triangles are counter-clockwise.
 	/// Without triangles the block is rigid: its mass is that of the area within its rings.
-	int
-	addBlock(const std::vector<Vec2>& points, const std::vector<std::vector<int>>& rings, const std::vector<std::array<int, 3>>& triangles, int material);
+	int addBlock(const std::vector<Vec2>& points, const std::vector<std::vector<int>>& rings, const std::vector<std::array<int, 3>>& triangles, int material);
 
-	/// Takes the segments that detectSegments found: sorts out pairs, sides and the distances at bonding.
+	/// Takes the segments that detectSegments found: sorts out pairs, sides and the distances at bonding. Properties are still missing.
 	void bond(std::vector<Segment>);
+
+	/// Properties of joints [first, last), and whether they are whole. They are checked.
+	void setJoints(int first, int last, const JointParams&, Joint status = Joint::intact);
+	void setJoints(const JointParams& p) { setJoints(0, joints.count(), p); }
+
+	/// A joint's edges become a free contact: from here on the joint carries nothing. listSides() afterwards.
+	void releaseJoint(int joint);
 
 	/// Joins degrees of freedom into a group that moves as one; a degree of freedom belongs to one group at most.
 	int addGroup(MotionGroup);
 
-	/// Computes again what follows from the rest: zone gradients and volumes, frames, sides, mobility. After loading.
+	/// Computes again what follows from the rest: zone gradients and volumes, columns, sides, mobility. After loading.
 	void rebuild();
 
-	/// The sides of the blocks; again whenever segments have been released.
+	/// The sides of the blocks; again whenever joints have been released.
 	void listSides();
 
 	/// inertia -> mobility, with zeros where motion is prescribed.
@@ -127,9 +93,16 @@ struct BlockAssembly {
 	/// The first grid point whose state is not a number, or -1.
 	int firstBadNode() const;
 
+	/// Puts a state back that this assembly had before.
+	void restore(const State&);
+
 private:
-	void rebuildZones(int first);
+	void rebuildZones(int firstBlock);
 	void rebuildJoints();
+	void noteKinds(int first, int last);
 };
+
+/// In place of a kind of joint: the joint is a free contact; the joints of a batch are of several kinds.
+constexpr int releasedKind = -1, mixedKinds = -2;
 
 } // namespace blocks

@@ -56,10 +56,10 @@ namespace {
 std::vector<Segment> detectSegments(const BlockAssembly& a, Real tolerance)
 {
 	require(tolerance > 0 && tolerance < 0.1, "detectSegments: tolerance must lie in (0, 0.1)", tolerance);
-	std::vector<Edge> edges(a.edgeNodes.size());
+	std::vector<Edge> edges(a.mesh.edgeNodes.size());
 	for (int block = 0; block < a.blockCount(); ++block)
-		for (int i = a.firstEdge[block]; i < a.firstEdge[block + 1]; ++i) {
-			const Vec2 p = a.position[a.edgeNodes[i][0]], q = a.position[a.edgeNodes[i][1]];
+		for (int i = a.mesh.firstEdge[block]; i < a.mesh.firstEdge[block + 1]; ++i) {
+			const Vec2 p = a.position(a.mesh.edgeNodes[i][0]), q = a.position(a.mesh.edgeNodes[i][1]);
 			edges[i] = { p, q, (q - p).normalized(), (q - p).norm(), block, i };
 		}
 
@@ -87,7 +87,7 @@ std::vector<Segment> detectSegments(const BlockAssembly& a, Real tolerance)
 				+ shown(e1->a.y()) + "): regions must not overlap");
 		Segment g;
 		if (!overlap(*e1, *e2, tolerance, g)) return;
-		const auto &n1 = a.edgeNodes[e1->index], &n2 = a.edgeNodes[e2->index];
+		const auto &n1 = a.mesh.edgeNodes[e1->index], &n2 = a.mesh.edgeNodes[e2->index];
 		g.node  = { n1[0], n1[1], n2[0], n2[1] };
 		g.block = { e1->block, e2->block };
 		g.area *= a.thickness;

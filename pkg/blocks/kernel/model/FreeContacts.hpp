@@ -5,17 +5,12 @@
 
 /// Contact of blocks that were never bonded, or whose joints have broken: they slide, part and meet again.
 ///
-/// A step: prepareContacts (serial; does something only where something moved far, broke or was asked for), then for every
-/// contact, in any order and in parallel, updateContact and advanceContact; gatherForces adds the forces.
-///
 /// A contact of two blocks holds all pairs of their edges that can touch before a vertex of either block has moved by
 /// `mayMove` x its mean edge; then they are looked for anew. What a pair of edges remembers (its slip) is carried over by the
 /// names of its edges, so nothing depends on the order in which contacts were made, or on threads.
 ///
 /// Most pairs do not touch. Such a pair rests, without being looked at, until the two blocks have gone so far that it might.
 namespace blocks {
-
-struct BlockAssembly;
 
 /// Two edges of two blocks that touch or may do so soon.
 struct EdgePair {
@@ -45,90 +40,51 @@ struct FreeContact {
 	JointParams               joint;            ///< residual values count; kn = 0 until they are known
 };
 
-/// How far blocks have gone. A vertex moves between two moments by no more than its block's path has grown.
+/// How far blocks that have contacts have gone. A vertex moves between two moments by no more than its block's path has grown.
 struct Odometer {
-	std::vector<Vec2> seenAt; ///< of grid points, positions up to which the paths count [m]
+	std::vector<Vec2> seenAt; ///< of grid points, displacements up to which the paths count [m]
 	std::vector<Real> path;   ///< of blocks: the largest step of any of their grid points, summed over the steps [m]
 };
 
+/// Who may touch whom. All of it follows from the state.
 struct FreeContacts {
-	// ---- saved
-	std::vector<FreeContact> all;              ///< an index stays valid while its contact lives
-	std::vector<Vec2>        detectedAt;       ///< positions at which the edge pairs of the node's block were last looked for [m]
-	Real                     lostFriction = 0; ///< dissipated by contacts that are no more [J]
+	bool wanted  = false; ///< whether the scene has general contact
+	bool started = false; ///< whether anything below is known
+	long version = 0;     ///< grows whenever contacts come, go or change their stiffness
+	long looks   = 0;     ///< how often neighbours were looked for
 
-	// ---- asked for, until the next prepareContacts
-	std::vector<std::array<int, 2>> requests;
-	std::vector<char>               releasable; ///< pair of bonded blocks -> it may have segments to release
+	// ---- contacts by blocks
+	std::vector<int> order;                 ///< contacts sorted by blocks
+	std::vector<int> firstOfBlock, ofBlock; ///< block -> its contacts, sorted by the other block; empty without contacts
+	std::vector<int> blocksInContact;       ///< blocks that have any
 
-	// ---- computed again after loading
-	std::vector<int>  order;                 ///< contacts sorted by blocks
-	std::vector<int>  firstOfBlock, ofBlock; ///< block -> its contacts, sorted by the other block; empty without contacts
-	std::vector<Real> sharpness, rounding;   ///< of grid points on outlines, see EdgeShape
-	std::vector<int>  edgeFrom;              ///< grid point -> the boundary edge that starts there, or -1
-	std::vector<Real> depthLimit, meanEdge;  ///< of blocks [m]
-	std::vector<Real> nearUntil;             ///< of blocks: no vertex is mayMove from detectedAt before the path is this long [m]
+	// ---- shapes, from the reference positions
+	std::vector<Real> sharpness, rounding;  ///< of grid points on outlines, see EdgeShape
+	std::vector<int>  edgeFrom;             ///< grid point -> the boundary edge that starts there, or -1
+	std::vector<Real> depthLimit, meanEdge; ///< of blocks [m]
 
-	bool wanted  = false; ///< whether anybody looks for free contacts (BlockContacts)
-	long version = 0;     ///< grows whenever nodalStiffness may have changed
+	// ---- how far things have moved
+	Odometer          odometer;
+	std::vector<Vec2> detectedAt; ///< displacements at which the edge pairs of the grid point's block were last looked for [m]
+	std::vector<Vec2> lookedAt;   ///< displacements at the last look [m]
+	Real              mayGo = 0;  ///< until a grid point is this far from lookedAt, nobody need look [m]
+	std::vector<int>  waiting;    ///< broken joints that will be released, in their order
 
-	static constexpr Real mayMove = 0.016; ///< of a mean edge, until edge pairs are looked for again
+	static constexpr Real mayMove = 0.016; ///< of a mean edge, until edge pairs are looked for anew
 };
 
-/// Distance by which blocks' bounding boxes must be enlarged so that a contact is asked for in time [m].
-Real contactMargin(const BlockAssembly&, int block);
+struct BlockAssembly;
 
-/// The contact of two blocks, or -1. `hint` is an index that was right some time ago.
-int contactOf(const BlockAssembly&, int block1, int block2, int hint = -1);
+/// Lists the contacts by blocks; again whenever some have come or gone.
+void sortContacts(BlockAssembly&);
 
-/// Asks for a contact of two blocks; prepareContacts makes it, if they are near. From any thread.
-void requestContact(BlockAssembly&, int block1, int block2);
+/// The nodes and shape of a pair of edges, from its two edges.
+void nameEdges(const BlockAssembly&, EdgePair&);
 
-/// After a law has worked on a bonded pair: takes note if it has segments both of whose points are broken.
-void watchForRelease(BlockAssembly&, int pair);
+/// Which pairs touch is not known any more; the next updateContact looks at all of them.
+void forgetActive(FreeContact&);
 
-/// Makes room for watchForRelease; before the first step, and after bond().
-void enableRelease(BlockAssembly&);
-
-/// Adds the blocks' motion since the last call to their paths.
-void followMotion(BlockAssembly&);
-
-/// Follows the motion, makes the contacts that were asked for, turns broken segments into free edge pairs, looks for edge pairs anew where blocks
-/// have moved, forgets contacts of blocks that are far apart. Serial, once a step.
-void prepareContacts(BlockAssembly&);
-
-/// What rules the contact: validated joint parameters; only kn, ks and the residual values count.
-void setContactJoint(BlockAssembly&, int contact, const JointParams&);
-
-/// Geometry of all edge pairs of a contact.
-void updateContact(BlockAssembly&, int contact);
-
-/// Stresses and nodal forces of all edge pairs; dt times the nodes' velocities is the last step's motion.
-void advanceContact(BlockAssembly&, int contact, Real dt);
-
-/// Both of these for all contacts.
-void advanceContacts(BlockAssembly&, Real dt, int threads = 1);
-
-/// Adds the contact forces on one block's grid points, in a fixed order.
-void gatherContactForces(const BlockAssembly&, int block, Vec2* force);
-
-/// The share of contacts, of those that touch and those that may, in the bound of nodalStiffness [N/m].
-std::vector<Real> contactStiffness(const BlockAssembly&);
-
-Real contactEnergy(const BlockAssembly&);   ///< elastic energy of all contacts [J]
-Real contactFriction(const BlockAssembly&); ///< dissipated by friction in all contacts so far [J]
-
-/// An end of an active edge pair as Python sees it: where, which way, how deep, how much.
-struct ContactEnd {
-	Vec2 position;   ///< midway between the edges [m]
-	Vec2 normal;     ///< out of the first block
-	Real depth;      ///< [m]
-	Real sigma, tau; ///< [Pa]
-	Real area;       ///< [m2]
-};
-ContactEnd contactEnd(const BlockAssembly&, const FreeContact&, int active, int k);
-
-/// Computes again what is not saved.
+/// Computes again what is not saved; the next step looks for neighbours anew.
 void rebuildContacts(BlockAssembly&);
 
 } // namespace blocks

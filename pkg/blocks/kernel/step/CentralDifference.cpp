@@ -1,4 +1,5 @@
 // yade-blocks, GPL-2.0-or-later
+#include <blocks/kernel/Wide.hpp>
 #include <blocks/kernel/step/CentralDifference.hpp>
 #include <cmath>
 
@@ -20,74 +21,104 @@ namespace {
 	};
 
 	struct Arrays {
-		Real *      x, *v;
+		Real *      u, *v;
 		const Real *f, *w; ///< force and mobility
 	};
 
+	/// What the step length and the damping come to.
+	struct Rates {
+		Real dt, alpha;
+		Real keep, push; ///< of the adaptive damping: factor on the velocity, and on the acceleration [s]
+	};
+
+	constexpr int lanes = 8; ///< sums are taken in so many parts, whatever the width of the processor
+
 	/// Degrees of freedom [first, last); sums are taken only where somebody reads them.
-	template <Damping::Kind kind, bool account> Sums advanceRange(const Arrays& a, int first, int last, Real dt, const Damping& damping)
+	template <Damping::Kind kind, bool account> inline __attribute__((always_inline)) Sums advanceRange(const Arrays& a, int first, int last, const Rates& r)
 	{
-		Sums        sums;
-		const Real  alpha = damping.alpha, half = damping.c * dt / 2;
-		const Real  keep = (1 - half) / (1 + half), push = dt / (1 + half);
-		Real *const x = a.x, *const v = a.v;
-		const Real *const f = a.f, *const w = a.w;
-#pragma GCC ivdep
-		for (int i = first; i < last; ++i) {
+		constexpr bool sums = account || kind == Damping::Kind::adaptive;
+		Real *const __restrict u = a.u, *const __restrict v = a.v;
+		const Real *const __restrict f = a.f, *const __restrict w = a.w;
+		const auto velocityAfter = [&](int i) {
 			const Real before = v[i];
-			Real       after;
-			if constexpr (kind == Damping::Kind::none) after = before + dt * w[i] * f[i];
+			if constexpr (kind == Damping::Kind::none) return before + r.dt * w[i] * f[i];
 			if constexpr (kind == Damping::Kind::local) { // the sign is that of the velocity the step would have without damping
-				const Real ahead  = before + dt / 2 * w[i] * f[i];
-				const Real damped = f[i] - alpha * std::copysign(std::abs(f[i]), ahead);
-				after             = before + dt * w[i] * damped;
+				const Real ahead  = before + r.dt / 2 * w[i] * f[i];
+				const Real damped = f[i] - r.alpha * std::copysign(std::abs(f[i]), ahead);
+				return before + r.dt * w[i] * damped;
 			}
-			if constexpr (kind == Damping::Kind::adaptive) after = w[i] > 0 ? keep * before + push * w[i] * f[i] : before;
-			v[i] = after;
-			x[i] += dt * after;
-			if constexpr (account || kind == Damping::Kind::adaptive) {
-				if (!(w[i] > 0)) continue; // prescribed motion: its work is the group's
-				const Real m = 1 / w[i];
+			if constexpr (kind == Damping::Kind::adaptive) return w[i] > 0 ? r.keep * before + r.push * w[i] * f[i] : before;
+		};
+		if constexpr (!sums) {
+#pragma GCC ivdep
+			for (int i = first; i < last; ++i) {
+				const Real after = velocityAfter(i);
+				v[i]             = after;
+				u[i] += r.dt * after;
+			}
+			return {};
+		} else {
+			Real dampingBefore[lanes] = {}, dampingAfter[lanes] = {}, kinetic[lanes] = {}, viscousPower[lanes] = {}, kineticTurn[lanes] = {};
+			const auto advance = [&](int i, int lane) {
+				const Real before = v[i], after = velocityAfter(i);
+				v[i]              = after;
+				u[i] += r.dt * after;
+				const Real m = w[i] > 0 ? 1 / w[i] : 0; // prescribed motion: its work is the group's
 				if constexpr (account) {
-					const Real drag = f[i] - m * (after - before) / dt;
-					sums.dampingBefore += drag * before / 2;
-					sums.dampingAfter += drag * after / 2;
-					sums.kinetic += m * after * before / 2;
+					const Real drag = (w[i] > 0 ? f[i] : 0) - m * (after - before) / r.dt;
+					dampingBefore[lane] += drag * before / 2;
+					dampingAfter[lane] += drag * after / 2;
+					kinetic[lane] += m * after * before / 2;
 				}
 				if constexpr (kind == Damping::Kind::adaptive) {
-					sums.viscousPower += m * after * after;
-					sums.kineticTurn += std::abs(m * (after * after - before * before) / 2);
+					viscousPower[lane] += m * after * after;
+					kineticTurn[lane] += std::abs(m * (after * after - before * before) / 2);
 				}
-			}
+			};
+			int i = first;
+			for (; i + lanes <= last; i += lanes)
+				for (int lane = 0; lane < lanes; ++lane)
+					advance(i + lane, lane);
+			for (; i < last; ++i)
+				advance(i, i - first - (i - first) / lanes * lanes);
+			Sums sum;
+			for (int lane = 0; lane < lanes; ++lane)
+				sum += { dampingBefore[lane], dampingAfter[lane], kinetic[lane], viscousPower[lane], kineticTurn[lane] };
+			return sum;
 		}
-		return sums;
+	}
+
+	using Kind = Damping::Kind;
+	WIDE Sums undamped(const Arrays& a, int first, int last, const Rates& r) { return advanceRange<Kind::none, false>(a, first, last, r); }
+	WIDE Sums undampedBooked(const Arrays& a, int first, int last, const Rates& r) { return advanceRange<Kind::none, true>(a, first, last, r); }
+	WIDE Sums local(const Arrays& a, int first, int last, const Rates& r) { return advanceRange<Kind::local, false>(a, first, last, r); }
+	WIDE Sums localBooked(const Arrays& a, int first, int last, const Rates& r) { return advanceRange<Kind::local, true>(a, first, last, r); }
+	WIDE Sums adaptive(const Arrays& a, int first, int last, const Rates& r) { return advanceRange<Kind::adaptive, false>(a, first, last, r); }
+	WIDE Sums adaptiveBooked(const Arrays& a, int first, int last, const Rates& r) { return advanceRange<Kind::adaptive, true>(a, first, last, r); }
+
+	using Advance = Sums (*)(const Arrays&, int, int, const Rates&);
+	Advance advanceOf(Kind kind, bool account)
+	{
+		if (kind == Kind::none) return account ? undampedBooked : undamped;
+		if (kind == Kind::local) return account ? localBooked : local;
+		return account ? adaptiveBooked : adaptive;
 	}
 
 	/// Ranges of a fixed length, summed in their order: the result does not know how many threads there were.
-	template <Damping::Kind kind, bool account> Sums advanceAll(const Arrays& a, int count, Real dt, const Damping& damping, [[maybe_unused]] int threads)
+	Sums advanceAll(Advance advance, const Arrays& a, int count, const Rates& r, [[maybe_unused]] int threads)
 	{
-		constexpr int range  = 4096;
-		const int     ranges = (count + range - 1) / range;
-		if constexpr (!account && kind != Damping::Kind::adaptive) {
+		constexpr int range   = 4096;
+		const int     ranges  = (count + range - 1) / range;
+		static thread_local std::vector<Sums> partial; // grows once
+		partial.resize(ranges);
+		Sums* const part = partial.data();
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-			for (int r = 0; r < ranges; ++r)
-				advanceRange<kind, account>(a, r * range, std::min(count, (r + 1) * range), dt, damping);
-			return {};
-		} else {
-			std::vector<Sums> partial(ranges);
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-			for (int r = 0; r < ranges; ++r)
-				partial[r] = advanceRange<kind, account>(a, r * range, std::min(count, (r + 1) * range), dt, damping);
-			Sums total;
-			for (const Sums& s : partial)
-				total += s;
-			return total;
-		}
-	}
-
-	template <Damping::Kind kind> Sums advanceAll(const Arrays& a, int count, Real dt, const Damping& d, bool account, int threads)
-	{
-		return account ? advanceAll<kind, true>(a, count, dt, d, threads) : advanceAll<kind, false>(a, count, dt, d, threads);
+		for (int i = 0; i < ranges; ++i)
+			part[i] = advance(a, i * range, std::min(count, (i + 1) * range), r);
+		Sums total;
+		for (const Sums& s : partial)
+			total += s;
+		return total;
 	}
 
 	/// The next velocity of a group's degrees of freedom.
@@ -95,8 +126,8 @@ namespace {
 	{
 		Real force = 0, inertia = 0; // of the blocks on the group
 		for (int dof : g.dofs) {
-			force += a.force[dof / 2][dof % 2];
-			inertia += a.inertia[dof / 2];
+			force += a.forces.nodal[dof / 2][dof % 2];
+			inertia += a.state.inertia[dof / 2];
 		}
 		const Real before = g.velocity;
 		Real       applied;
@@ -109,7 +140,7 @@ namespace {
 			Real       damped     = unbalanced;
 			if (damping.kind == Damping::Kind::local)
 				damped -= damping.alpha * std::copysign(std::abs(unbalanced), before + dt / 2 * unbalanced / inertia);
-			const Real half = damping.kind == Damping::Kind::adaptive ? damping.c * dt / 2 : 0;
+			const Real half = damping.kind == Damping::Kind::adaptive ? a.state.viscosity * dt / 2 : 0;
 			g.velocity      = ((1 - half) * before + damped / inertia * dt) / (1 + half);
 			const Real drag = unbalanced - inertia * (g.velocity - before) / dt;
 			account.dampingBefore += drag * before * dt / 2;
@@ -123,33 +154,26 @@ namespace {
 		account.kinetic += inertia * g.velocity * before / 2;
 		g.travelled += g.velocity * dt;
 		for (int dof : g.dofs)
-			a.velocity[dof / 2][dof % 2] = g.velocity;
+			a.state.velocity[dof / 2][dof % 2] = g.velocity;
 	}
 
 } // namespace
 
-StepWork integrate(BlockAssembly& a, Damping& damping, Real dt, Real time, bool account, int threads)
+StepWork integrate(BlockAssembly& a, const Damping& damping, Real dt, Real time, bool account, int threads)
 {
+	Real& c = a.state.viscosity;
+	if (damping.kind == Damping::Kind::adaptive && c == 0) c = Damping::floorFraction / dt;
 	StepWork work;
-	for (MotionGroup& g : a.groups)
+	for (MotionGroup& g : a.state.groups)
 		moveGroup(g, a, damping, dt, time, work);
 
-	if (damping.kind == Damping::Kind::adaptive && damping.c == 0) damping.c = Damping::floorFraction / dt;
-	const Arrays arrays { a.position.data()->data(), a.velocity.data()->data(), a.force.data()->data(), a.mobility.data()->data() };
-	const int    count = 2 * a.nodeCount();
-	Sums         sums;
-	switch (damping.kind) {
-	case Damping::Kind::none:
-		sums = advanceAll<Damping::Kind::none>(arrays, count, dt, damping, account, threads);
-		break;
-	case Damping::Kind::local:
-		sums = advanceAll<Damping::Kind::local>(arrays, count, dt, damping, account, threads);
-		break;
-	case Damping::Kind::adaptive:
-		sums      = advanceAll<Damping::Kind::adaptive>(arrays, count, dt, damping, account, threads);
-		damping.c = Damping::adapted(damping.c, damping.c * sums.viscousPower, sums.kineticTurn / dt, dt);
-		break;
-	}
+	const Real   half = damping.kind == Damping::Kind::adaptive ? c * dt / 2 : 0;
+	const Rates  rates { dt, damping.alpha, (1 - half) / (1 + half), dt / (1 + half) };
+	const Arrays arrays {
+		a.state.displacement.data()->data(), a.state.velocity.data()->data(), a.forces.nodal.data()->data(), a.supports.mobility.data()->data()
+	};
+	const Sums sums = advanceAll(advanceOf(damping.kind, account), arrays, 2 * a.nodeCount(), rates, threads);
+	if (damping.kind == Damping::Kind::adaptive) c = Damping::adapted(c, c * sums.viscousPower, sums.kineticTurn / dt, dt);
 	work.dampingBefore += sums.dampingBefore * dt;
 	work.dampingAfter += sums.dampingAfter * dt;
 	work.kinetic += sums.kinetic;

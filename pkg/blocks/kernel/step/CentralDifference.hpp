@@ -22,6 +22,6 @@ struct StepWork {
 
 /// One step: moves the groups, then every free degree of freedom. The returned work is complete only if `account` says so.
 /// Bits do not depend on the number of threads.
-StepWork integrate(BlockAssembly&, Damping&, Real dt, Real time, bool account = false, int threads = 1);
+StepWork integrate(BlockAssembly&, const Damping&, Real dt, Real time, bool account = false, int threads = 1);
 
 } // namespace blocks

@@ -7,8 +7,8 @@ RigidStiffness rigidStiffness(const BlockAssembly& a, const std::vector<Real>& s
 {
 	RigidStiffness sum { 0, 0, 0 };
 	Vec2           first = Vec2::Zero();
-	for (int n = a.firstNode[r.block]; n < a.firstNode[r.block + 1]; ++n) {
-		const Vec2 arm = a.reference[n] - r.origin;
+	for (int n = a.mesh.firstNode[r.block]; n < a.mesh.firstNode[r.block + 1]; ++n) {
+		const Vec2 arm = a.mesh.reference[n] - r.origin;
 		sum.translation += stiffness[n];
 		first += stiffness[n] * arm;
 		sum.rotation += stiffness[n] * arm.squaredNorm();
@@ -20,7 +20,7 @@ RigidStiffness rigidStiffness(const BlockAssembly& a, const std::vector<Real>& s
 Real rigidTimeStep(const BlockAssembly& a, const std::vector<Real>& stiffness, Masses masses)
 {
 	Real fastest = 0; // omega^2
-	for (const RigidBlock& r : a.rigid) {
+	for (const RigidBlock& r : a.state.rigid) {
 		const RigidStiffness k          = rigidStiffness(a, stiffness, r);
 		const bool           translates = r.free[0] || r.free[1], rotates = r.free[2], actual = masses == Masses::actual;
 		const Real           m = actual ? r.mass : r.inertia, moment = actual ? r.moment : r.rotaryInertia;
@@ -37,7 +37,7 @@ void scaleRigidInertia(BlockAssembly& a, const std::vector<Real>& stiffness, Rea
 	require(safety > 0, "safety must be positive", safety);
 	restoreRigidInertia(a);
 	const Real c = dt * dt / (4 * safety * safety);
-	for (RigidBlock& r : a.rigid) {
+	for (RigidBlock& r : a.state.rigid) {
 		const RigidStiffness k = rigidStiffness(a, stiffness, r);
 		if (!(k.rotation > 0)) continue;
 		const Real length = std::sqrt(k.rotation / k.translation);
@@ -48,7 +48,7 @@ void scaleRigidInertia(BlockAssembly& a, const std::vector<Real>& stiffness, Rea
 
 void restoreRigidInertia(BlockAssembly& a)
 {
-	for (RigidBlock& r : a.rigid)
+	for (RigidBlock& r : a.state.rigid)
 		r.inertia = r.mass, r.rotaryInertia = r.moment;
 }
 
@@ -66,20 +66,20 @@ void changeInertia(RigidBlock& r, const Vec3& old, Vec3& velocity)
 
 void gatherRigidForces(BlockAssembly& a)
 {
-	for (RigidBlock& r : a.rigid) {
+	for (RigidBlock& r : a.state.rigid) {
 		r.force = { r.load.x(), r.load.y(), 0 };
-		for (int n = a.firstNode[r.block]; n < a.firstNode[r.block + 1]; ++n)
-			r.force += Vec3(a.force[n].x(), a.force[n].y(), cross(a.position[n] - r.centre, a.force[n]));
+		for (int n = a.mesh.firstNode[r.block]; n < a.mesh.firstNode[r.block + 1]; ++n)
+			r.force += Vec3(a.forces.nodal[n].x(), a.forces.nodal[n].y(), cross(a.position(n) - r.centre, a.forces.nodal[n]));
 	}
 }
 
 StepWork followRigidMotion(BlockAssembly& a, RigidBlock& r, const RigidMotion& now, Real dt)
 {
 	const Real c = now.halfTurn.x(), s = now.halfTurn.y(), cosine = c * c - s * s, sine = 2 * c * s;
-	for (int n = a.firstNode[r.block]; n < a.firstNode[r.block + 1]; ++n) {
-		const Vec2 arm   = a.reference[n] - r.origin;
+	for (int n = a.mesh.firstNode[r.block]; n < a.mesh.firstNode[r.block + 1]; ++n) {
+		const Vec2 arm   = a.mesh.reference[n] - r.origin;
 		const Vec2 there = now.centre + Vec2(cosine * arm.x() - sine * arm.y(), sine * arm.x() + cosine * arm.y());
-		a.velocity[n]    = (there - a.position[n]) / dt;
+		a.state.velocity[n]    = (there - a.position(n)) / dt;
 	}
 
 	StepWork work;

@@ -1,4 +1,5 @@
 // yade-blocks, GPL-2.0-or-later
+#include <blocks/kernel/step/Contacts.hpp>
 #include <blocks/kernel/step/TimeStep.hpp>
 
 namespace blocks {
@@ -13,12 +14,12 @@ namespace {
 
 	void addZone(const BlockAssembly& a, int zone, const Moduli& m, std::vector<Real>& stiffness)
 	{
-		const ZoneGradients& s    = a.zoneGradient[zone];
+		const ZoneGradients s    = a.mesh.zoneGradient[zone];
 		const Vec2           g[3] = { { -s.g1x - s.g2x, -s.g1y - s.g2y }, { s.g1x, s.g1y }, { s.g2x, s.g2y } };
 		for (int i = 0; i < 3; ++i)
 			for (int j = 0; j < 3; ++j) { // K_ij = V (lambda g_i g_j^T + mu (g_j g_i^T + g_i.g_j 1))
 				const Real dot = m.mu * g[i].dot(g[j]), mixed = m.lambda + m.mu;
-				stiffness[a.zoneNodes[zone][i]] += a.zoneVolume[zone]
+				stiffness[a.mesh.zoneNodes[zone][i]] += a.mesh.zoneVolume[zone]
 					* spectralNorm(mixed * g[i].x() * g[j].x() + dot,
 				                       m.lambda * g[i].x() * g[j].y() + m.mu * g[j].x() * g[i].y(),
 				                       m.lambda * g[i].y() * g[j].x() + m.mu * g[j].y() * g[i].x(),
@@ -34,9 +35,9 @@ std::vector<Real> zoneStiffness(const BlockAssembly& a)
 {
 	std::vector<Real> stiffness(a.nodeCount(), 0);
 	for (int block = 0; block < a.blockCount(); ++block) {
-		const Material& material = a.materials[a.blockMaterial[block]];
+		const Material& material = a.mesh.materials[a.mesh.blockMaterial[block]];
 		const Moduli    moduli   = planeModuli(material.young, material.poisson, a.plane);
-		for (int z = a.firstZone[block]; z < a.firstZone[block + 1]; ++z)
+		for (int z = a.mesh.firstZone[block]; z < a.mesh.firstZone[block + 1]; ++z)
 			addZone(a, z, moduli, stiffness);
 	}
 	return stiffness;
@@ -44,16 +45,15 @@ std::vector<Real> zoneStiffness(const BlockAssembly& a)
 
 std::vector<Real> nodalStiffness(const BlockAssembly& a, std::vector<Real> stiffness)
 {
-	for (size_t pair = 0; pair < a.pairs.size(); ++pair) {
-		const JointParams& joint = a.joints[pair];
+	for (int i = 0; i < a.joints.count(); ++i) {
+		if (a.state.released[i]) continue;
+		const JointParams& joint = a.joints.of(i);
 		const Real         k     = std::max(joint.kn, joint.ks) + joint.kn * joint.tanDilation;
-		for (int i = a.pairs[pair].first; i < a.pairs[pair].last; ++i) {
-			const Segment& g = a.segments[i];
-			for (int p = 0; p < 2; ++p) { // K_ij = A k w_i w_j, and the weights of both sides add up to 2
-				const Real weight[4] = { 1 - g.s1[p], g.s1[p], 1 - g.s2[p], g.s2[p] };
-				for (int c = 0; c < 4; ++c)
-					stiffness[g.node[c]] += 2 * k * g.area * weight[c];
-			}
+		const Segment&     g     = a.joints.segments[i];
+		for (int p = 0; p < 2; ++p) { // K_ij = A k w_i w_j, and the weights of both sides add up to 2
+			const Real weight[4] = { 1 - g.s1[p], g.s1[p], 1 - g.s2[p], g.s2[p] };
+			for (int c = 0; c < 4; ++c)
+				stiffness[g.node[c]] += 2 * k * g.area * weight[c];
 		}
 	}
 	if (!a.contacts.order.empty()) { // a grid point may have an intact joint on one edge and a free contact on the other
@@ -67,7 +67,7 @@ std::vector<Real> nodalStiffness(const BlockAssembly& a, std::vector<Real> stiff
 Real stableTimeStep(const BlockAssembly& a, const std::vector<Real>& stiffness, const std::vector<Real>& inertia)
 {
 	std::vector<char> driven(2 * a.nodeCount(), false); // a platen under a force moves freely, as one
-	for (const MotionGroup& g : a.groups)
+	for (const MotionGroup& g : a.state.groups)
 		if (g.drive == MotionGroup::Drive::velocity)
 			for (int dof : g.dofs)
 				driven[dof] = true;
@@ -82,7 +82,7 @@ void scaleInertia(BlockAssembly& a, const std::vector<Real>& stiffness, Real dt,
 	require(dt > 0 && std::isfinite(dt), "the time step must be positive [s]", dt);
 	require(safety > 0, "safety must be positive", safety);
 	for (int n = 0; n < a.nodeCount(); ++n)
-		a.inertia[n] = a.mass[n] > 0 ? stiffness[n] * dt * dt / (4 * safety * safety) : 0;
+		a.state.inertia[n] = a.mesh.mass[n] > 0 ? stiffness[n] * dt * dt / (4 * safety * safety) : 0;
 	a.updateMobility();
 }
 

@@ -1,0 +1,108 @@
+// yade-blocks, GPL-2.0-or-later
+#include <algorithm>
+#include <blocks/kernel/model/BlockAssembly.hpp>
+#include <limits>
+#include <numeric>
+
+namespace blocks {
+namespace {
+
+	/// rho of a vertex, as a fraction of the shorter of its two edges.
+	constexpr Real roundingFraction = 0.02;
+	/// Corners and sizes in the reference positions, so that they never change.
+	void computeShapes(BlockAssembly& a)
+	{
+		FreeContacts& f     = a.contacts;
+		const int     edges = int(a.mesh.edgeNodes.size());
+		f.sharpness.assign(a.nodeCount(), 0);
+		f.rounding.assign(a.nodeCount(), 0);
+		f.edgeFrom.assign(a.nodeCount(), -1);
+		for (int e = 0; e < edges; ++e)
+			f.edgeFrom[a.mesh.edgeNodes[e][0]] = e;
+		for (const auto& [from, to] : a.mesh.edgeNodes) {
+			const int  next = a.mesh.edgeNodes[f.edgeFrom[to]][1];
+			const Vec2 in = a.mesh.reference[to] - a.mesh.reference[from], out = a.mesh.reference[next] - a.mesh.reference[to];
+			const Real lengths = in.norm() * out.norm(), sine = cross(in, out) / lengths, cosine = in.dot(out) / lengths;
+			// the outline turns left by the angle of (cosine, sine) = pi - beta, so 1/tan(beta/2) = tan(turn/2)
+			const Real tangent  = sine / std::max(1 + cosine, std::numeric_limits<Real>::epsilon()); // negative where it bends inward
+			const Real straight = 1e-9; // an outline that turns by less than this [rad] goes straight on
+			f.sharpness[to]     = tangent > straight ? tangent * tangent : 0;
+			f.rounding[to]      = roundingFraction * std::min(in.norm(), out.norm());
+		}
+		f.depthLimit.resize(a.blockCount());
+		f.meanEdge.resize(a.blockCount());
+		for (int b = 0; b < a.blockCount(); ++b) {
+			const Vec2 origin = a.mesh.reference[a.mesh.firstNode[b]];
+			Real       area = 0, outline = 0;
+			for (int e = a.mesh.firstEdge[b]; e < a.mesh.firstEdge[b + 1]; ++e) {
+				const Vec2 p = a.mesh.reference[a.mesh.edgeNodes[e][0]] - origin, q = a.mesh.reference[a.mesh.edgeNodes[e][1]] - origin;
+				area += cross(p, q) / 2;
+				outline += (q - p).norm();
+			}
+			f.depthLimit[b] = area / outline; // between half the inradius (compact blocks) and all of it (thin ones)
+			f.meanEdge[b]   = outline / (a.mesh.firstEdge[b + 1] - a.mesh.firstEdge[b]);
+		}
+	}
+
+} // namespace
+
+void sortContacts(BlockAssembly& a)
+{
+	FreeContacts& f = a.contacts;
+	f.order.clear();
+	for (int i = 0; i < int(a.state.contacts.size()); ++i)
+		if (a.state.contacts[i].block[0] >= 0) f.order.push_back(i);
+	std::sort(f.order.begin(), f.order.end(), [&](int i, int j) { return a.state.contacts[i].block < a.state.contacts[j].block; });
+	f.ofBlock.assign(2 * f.order.size(), 0);
+	f.firstOfBlock.assign(f.order.empty() ? 0 : a.blockCount() + 1, 0);
+	for (int i : f.order)
+		for (int block : a.state.contacts[i].block)
+			++f.firstOfBlock[block + 1];
+	std::partial_sum(f.firstOfBlock.begin(), f.firstOfBlock.end(), f.firstOfBlock.begin());
+	std::vector<int> next = f.firstOfBlock;
+	for (int i : f.order) // sorted by both blocks: every block meets the others in their order
+		for (int block : a.state.contacts[i].block)
+			f.ofBlock[next[block]++] = i;
+	f.blocksInContact.clear();
+	for (int b = 0; b + 1 < int(f.firstOfBlock.size()); ++b)
+		if (f.firstOfBlock[b] != f.firstOfBlock[b + 1]) f.blocksInContact.push_back(b);
+}
+
+void nameEdges(const BlockAssembly& a, EdgePair& e)
+{
+	const FreeContacts& f = a.contacts;
+	const auto &        A = a.mesh.edgeNodes[e.edge[0]], &B = a.mesh.edgeNodes[e.edge[1]];
+	e.node = { A[0], A[1], B[0], B[1] };
+	for (int i = 0; i < 4; ++i)
+		e.shape.sharpness[i] = f.sharpness[e.node[i]];
+	auto rho            = [&](int i, int j) { return std::min(f.rounding[i], f.rounding[j]); };
+	e.shape.rounding    = { rho(A[0], B[1]), rho(A[1], B[0]) };
+	e.shape.farRounding = { rho(A[1], B[1]), rho(A[0], B[0]) };
+	e.shape.depthLimit  = std::min(f.depthLimit[a.blockOfNode(A[0])], f.depthLimit[a.blockOfNode(B[0])]);
+}
+
+/// Until the next updateContact, which shall look at all pairs.
+void forgetActive(FreeContact& contact)
+{
+	contact.allRestUntil = 0;
+	contact.restsUntil.assign(contact.edges.size(), 0);
+	contact.active.clear();
+	contact.active.reserve(contact.edges.size()); // nothing is allocated inside a step
+	contact.geometry.resize(contact.edges.size());
+}
+
+void rebuildContacts(BlockAssembly& a)
+{
+	a.contacts.started = false;
+	if (!a.contacts.wanted && a.state.contacts.empty()) return;
+	a.contacts.wanted = true;
+	computeShapes(a);
+	sortContacts(a);
+	for (FreeContact& c : a.state.contacts) {
+		for (EdgePair& e : c.edges)
+			nameEdges(a, e);
+		forgetActive(c);
+	}
+}
+
+} // namespace blocks

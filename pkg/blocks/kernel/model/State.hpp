@@ -1,0 +1,50 @@
+// yade-blocks, GPL-2.0-or-later
+#pragma once
+#include <blocks/kernel/model/FreeContacts.hpp>
+#include <blocks/kernel/model/Motion.hpp>
+#include <blocks/kernel/model/RigidBlock.hpp>
+
+namespace blocks {
+
+/// Energies that are booked step by step [J].
+struct Accounts {
+	Real damping        = 0; ///< dissipated by damping, up to the last time of forces
+	Real pendingDamping = 0; ///< ... in the half step since
+	Real friction       = 0; ///< dissipated by broken joints; dilation's work against the pressure is taken off
+	Real fracture       = 0; ///< set free in the steps in which contact points broke
+	Real scaling        = 0; ///< minus the kinetic energy that masses have brought which were scaled anew
+	Real released       = 0; ///< work of groups that are no more
+};
+
+/// All that a step changes and the next one needs. It is saved, put back, compared and hashed as one.
+struct State {
+	// ---- grid points
+	std::vector<Vec2> displacement; ///< since the reference positions [m]
+	std::vector<Vec2> velocity;     ///< at the last half step [m/s]
+	std::vector<Real> inertia;      ///< mass that resists motion: the true or the scaled one [kg]
+
+	// ---- contact points, two a joint
+	std::vector<Real>  opening, slip;       ///< relative displacement since bonding, in the frame [m]
+	std::vector<Real>  sigma, tau;          ///< joint stresses [Pa]
+	std::vector<Real>  slipPlastic, uplift; ///< see JointState [m]
+	std::vector<Joint> status;
+
+	// ---- joints
+	std::vector<char> released; ///< whether the joint's edges are a free contact by now
+
+	// ---- what moves as one
+	std::vector<MotionGroup> groups;
+	std::vector<RigidBlock>  rigid; ///< in the order of the blocks
+
+	// ---- blocks that touch without being bonded
+	std::vector<FreeContact> contacts; ///< an index stays valid while its contact lives
+	Real                     lostFriction = 0; ///< dissipated by contacts that are no more [J]
+
+	Real     viscosity = 0; ///< c of the adaptive damping, what it has come to [1/s]
+	Accounts accounts;
+
+	JointState joint(int point) const { return { slipPlastic[point], uplift[point], status[point] }; }
+	void       setJoint(int point, const JointState& s) { slipPlastic[point] = s.slipPlastic, uplift[point] = s.uplift, status[point] = s.status; }
+};
+
+} // namespace blocks

@@ -1,0 +1,360 @@
+// yade-blocks, GPL-2.0-or-later
+#include <CGAL/box_intersection_d.h>
+#include <algorithm>
+#include <blocks/kernel/Wide.hpp>
+#include <blocks/kernel/step/ContactSearch.hpp>
+#include <limits>
+#include <numeric>
+
+namespace blocks {
+namespace {
+
+	/// Edges from how far out of the facing half-circle are kept as candidates: -e_A.e_B above this. The turn that a block can
+	/// make while its vertices move by mayMove is smaller unless it has edges much shorter than its mean one; those see each other late.
+	constexpr Real turnedAway = -0.2;
+	struct Box {
+		Vec2 low, high;
+
+		void include(const Vec2& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); }
+		bool meets(const Box& o, Real margin) const { return ((low - o.high).array() <= margin).all() && ((o.low - high).array() <= margin).all(); }
+	};
+
+	Box boxOf(const Vec2& p, const Vec2& q) { return { p.cwiseMin(q), p.cwiseMax(q) }; }
+
+	Box boxOf(const BlockAssembly& a, int block)
+	{
+		Box box { a.position(a.mesh.firstNode[block]), a.position(a.mesh.firstNode[block]) };
+		for (int e = a.mesh.firstEdge[block]; e < a.mesh.firstEdge[block + 1]; ++e)
+			box.include(a.position(a.mesh.edgeNodes[e][0]));
+		return box;
+	}
+
+	std::array<int, 2> ordered(int block1, int block2) { return { std::min(block1, block2), std::max(block1, block2) }; }
+
+	/// Whether two edges touch, or can do so when their four vertices move by `margin` together.
+	bool mayTouch(const Vec2& a0, const Vec2& a1, const Vec2& b0, const Vec2& b1, Real margin)
+	{
+		const Vec2 eA = (a1 - a0).normalized(), eB = (b1 - b0).normalized();
+		const Real c = -eA.dot(eB);
+		if (c < turnedAway) return false;
+		const Real deepest = std::max({ cross(b0 - a0, eB), cross(b0 - a1, eB), cross(a0 - b1, eA), cross(a0 - b0, eA) });
+		if (deepest < -margin) return false;
+		if (c < 0.1) return true; // too far turned for a common direction to tell
+		const Vec2 t    = (eA - eB).normalized();
+		const Real side = std::min({ (a1 - a0).dot(t), (b0 - b1).dot(t), (a1 - b1).dot(t), (b0 - a0).dot(t) });
+		// where an edge turns about its far end, the overlap changes by more than its vertices move; c >= 0.1 bounds it
+		return side > -2 * margin - 0.05 * std::min((a1 - a0).norm(), (b1 - b0).norm());
+	}
+
+	/// A segment between bonded blocks as a pair of edges.
+	std::array<int, 2> edgesOf(const BlockAssembly& a, const Segment& g) { return { a.contacts.edgeFrom[g.node[0]], a.contacts.edgeFrom[g.node[2]] }; }
+
+	/// Edge pairs [sorted] that unreleased segments of two blocks occupy.
+	std::vector<std::array<int, 2>> bondedEdges(const BlockAssembly& a, const std::array<int, 2>& blocks)
+	{
+		std::vector<std::array<int, 2>> list;
+		const auto                      pair
+			= std::lower_bound(a.joints.pairs.begin(), a.joints.pairs.end(), blocks, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
+		if (pair == a.joints.pairs.end() || pair->block != blocks) return list;
+		for (int s = pair->first; s < pair->last; ++s)
+			if (!a.state.released[s]) list.push_back(edgesOf(a, a.joints.segments[s]));
+		std::sort(list.begin(), list.end());
+		return list;
+	}
+
+	/// Looks for the edge pairs of a contact; those that it had keep their slip.
+	void detect(BlockAssembly& a, FreeContact& contact)
+	{
+		const FreeContacts& f      = a.contacts;
+		const auto          bonded = bondedEdges(a, contact.block);
+		// each block's vertices may have moved by mayMove since they were last looked at, and will again
+		const Real margin = 2 * FreeContacts::mayMove * (f.meanEdge[contact.block[0]] + f.meanEdge[contact.block[1]]);
+		const Real reach  = margin + 2 * std::min(f.depthLimit[contact.block[0]], f.depthLimit[contact.block[1]]); // a vertex may be this deep
+		const Box  other  = boxOf(a, contact.block[1]);
+
+		std::vector<EdgePair> found;
+		auto                  old = contact.edges.begin();
+		for (int i = a.mesh.firstEdge[contact.block[0]]; i < a.mesh.firstEdge[contact.block[0] + 1]; ++i) {
+			const Vec2 a0 = a.position(a.mesh.edgeNodes[i][0]), a1 = a.position(a.mesh.edgeNodes[i][1]);
+			const Box   box = boxOf(a0, a1);
+			if (!box.meets(other, reach)) continue;
+			for (int j = a.mesh.firstEdge[contact.block[1]]; j < a.mesh.firstEdge[contact.block[1] + 1]; ++j) {
+				const Vec2 b0 = a.position(a.mesh.edgeNodes[j][0]), b1 = a.position(a.mesh.edgeNodes[j][1]);
+				const std::array<int, 2> key { i, j };
+				while (old != contact.edges.end() && old->edge < key)
+					++old;
+				const bool known = old != contact.edges.end() && old->edge == key;
+				if (!box.meets(boxOf(b0, b1), reach) || !mayTouch(a0, a1, b0, b1, margin + (known ? old->uplift : 0))) continue;
+				if (std::binary_search(bonded.begin(), bonded.end(), key)) continue;
+				if (known) {
+					found.push_back(*old);
+					continue;
+				}
+				EdgePair e {};
+				e.edge = key;
+				nameEdges(a, e);
+				found.push_back(e);
+			}
+		}
+		contact.edges = std::move(found);
+		forgetActive(contact);
+	}
+
+	/// The contact of two blocks, made if there is none. Its properties are those of the two materials, if they are known.
+	int makeContact(BlockAssembly& a, const std::array<int, 2>& blocks)
+	{
+		const int is = contactOf(a, blocks[0], blocks[1]);
+		if (is >= 0) return is;
+		std::vector<FreeContact>& all  = a.state.contacts;
+		int                       slot = 0;
+		while (slot < int(all.size()) && all[slot].block[0] >= 0)
+			++slot;
+		if (slot == int(all.size())) all.emplace_back();
+		all[slot]       = {};
+		all[slot].block = blocks;
+		const int kind  = a.joints.kindOfMaterials(a.mesh.blockMaterial[blocks[0]], a.mesh.blockMaterial[blocks[1]]);
+		if (kind > 0) all[slot].joint = a.joints.kinds[kind];
+		sortContacts(a);
+		return slot;
+	}
+
+	/// A joint dilates until it has slid by its limit slip, or by this share of its length.
+	constexpr Real dilatesFor = 0.25;
+
+	/// What a broken joint waits for before its edges become a free contact.
+	enum class Release { never, later, now };
+
+	Release releaseOf(const BlockAssembly& a, int joint)
+	{
+		const JointParams& p = a.joints.of(joint);
+		for (int i : { 2 * joint, 2 * joint + 1 })
+			if (a.state.status[i] == Joint::intact) return Release::never; // until it breaks, which will be noticed
+		for (int i : { 2 * joint, 2 * joint + 1 }) {
+			if (a.state.sigma[i] > 0) return Release::later; // residual tension stays with the point law
+			if (p.tanDilation > 0 && a.state.sigma[i] < 0    // so does a joint that goes on dilating
+			    && std::abs(a.state.slipPlastic[i])
+			            < std::min(p.dilationLimitSlip, dilatesFor * 2 * a.joints.segments[joint].area / a.thickness))
+				return Release::later;
+		}
+		return Release::now;
+	}
+
+	/// Turns a broken joint into a free edge pair, which takes over its slip.
+	void release(BlockAssembly& a, int joint, int contact)
+	{
+		const Segment& g = a.joints.segments[joint];
+		a.releaseJoint(joint); // from here on it carries nothing
+		FreeContact& c = a.state.contacts[contact];
+		if (!(c.joint.kn > 0)) c.joint = a.joints.of(joint);
+		detect(a, c);
+		const auto key = edgesOf(a, g);
+		const auto at
+			= std::lower_bound(c.edges.begin(), c.edges.end(), key, [](const EdgePair& e, const std::array<int, 2>& k) { return e.edge < k; });
+		const bool near = at != c.edges.end() && at->edge == key;
+		if (near) {
+			at->area   = g.area;
+			at->uplift = (a.state.uplift[2 * joint] + a.state.uplift[2 * joint + 1]) / 2;
+		}
+		for (int k : { 0, 1 }) {
+			const int p = 2 * joint + k;
+			if (near) at->slip[k] = a.state.tau[p] / c.joint.ks, at->sigma[k] = a.state.sigma[p], at->tau[k] = a.state.tau[p];
+			a.state.sigma[p] = a.state.tau[p] = 0;
+		}
+	}
+
+	/// Largest square of a distance that a grid point of a block has moved since `from` [m2].
+	Real farthestMove(const BlockAssembly& a, int block, const std::vector<Vec2>& from)
+	{
+		Real square = 0;
+		for (int n = a.mesh.firstNode[block]; n < a.mesh.firstNode[block + 1]; ++n)
+			square = std::max(square, (a.state.displacement[n] - from[n]).squaredNorm());
+		return square;
+	}
+
+	/// How many of `count` numbers differ from others by more than `limit`; what is no number differs.
+	WIDE std::int64_t countMoved(const Real* __restrict now, const Real* __restrict then, int count, Real limit)
+	{
+		std::int64_t moved = 0;
+		for (int i = 0; i < count; ++i)
+			moved += !(std::abs(now[i] - then[i]) <= limit);
+		return moved;
+	}
+
+	/// Lengths of the paths of those blocks that have contacts.
+	void followMotion(BlockAssembly& a)
+	{
+		FreeContacts& f = a.contacts;
+		for (int b : f.blocksInContact) {
+			Real farthest = 0;
+			for (int n = a.mesh.firstNode[b]; n < a.mesh.firstNode[b + 1]; ++n) {
+				farthest              = std::max(farthest, (a.state.displacement[n] - f.odometer.seenAt[n]).squaredNorm());
+				f.odometer.seenAt[n] = a.state.displacement[n];
+			}
+			f.odometer.path[b] += std::sqrt(farthest);
+		}
+	}
+
+	/// A block that has gone this share of its limit is looked at, when anybody is.
+	constexpr Real lookAgain = 0.5;
+
+	/// How far a block's grid points may move until its neighbours are looked for anew [m].
+	Real limitOf(const FreeContacts& f, int block) { return FreeContacts::mayMove * f.meanEdge[block]; }
+
+	/// The first step of a scene, or the first after its state was put back: everything is looked for.
+	void start(BlockAssembly& a)
+	{
+		FreeContacts& f = a.contacts;
+		rebuildContacts(a);
+		f.odometer.path.assign(a.blockCount(), 0);
+		f.odometer.seenAt = f.detectedAt = f.lookedAt = a.state.displacement;
+		f.waiting.clear();
+		for (int i = 0; i < a.joints.count(); ++i)
+			if (!a.state.released[i] && releaseOf(a, i) != Release::never) f.waiting.push_back(i);
+		f.started = true;
+	}
+
+	/// Pairs of blocks, not bonded, of which one has moved, and whose boxes are close enough for a contact before the next look.
+	std::vector<std::array<int, 2>> newNeighbours(const BlockAssembly& a, const std::vector<int>& moved)
+	{
+		using BoxOf = CGAL::Box_intersection_d::Box_with_handle_d<Real, 2, const int*, CGAL::Box_intersection_d::ID_EXPLICIT>;
+		std::vector<int> every(a.blockCount());
+		std::iota(every.begin(), every.end(), 0);
+		auto boxes = [&](const std::vector<int>& blocks) {
+			std::vector<BoxOf> list;
+			list.reserve(blocks.size());
+			for (const int& block : blocks) {
+				const Box  box    = boxOf(a, block);
+				const Real margin = 2 * limitOf(a.contacts, block);
+				Real       low[] = { box.low.x() - margin, box.low.y() - margin }, high[] = { box.high.x() + margin, box.high.y() + margin };
+				list.emplace_back(low, high, &block);
+			}
+			return list;
+		};
+		std::vector<BoxOf>              some = boxes(moved), all = boxes(every);
+		std::vector<std::array<int, 2>> found;
+		CGAL::box_intersection_d(some.begin(), some.end(), all.begin(), all.end(), [&](const BoxOf& p, const BoxOf& q) {
+			if (*p.handle() == *q.handle()) return;
+			const auto key = ordered(*p.handle(), *q.handle());
+			if (pairOf(a, key) < 0 && contactOf(a, key[0], key[1]) < 0) found.push_back(key);
+		});
+		std::sort(found.begin(), found.end());
+		found.erase(std::unique(found.begin(), found.end()), found.end());
+		return found;
+	}
+
+	/// Looks at every block: edge pairs of those that have moved too far, new neighbours, contacts that are no more. Until some
+	/// grid point has moved by f.mayGo from here, nothing of this can change.
+	void look(BlockAssembly& a, bool everything)
+	{
+		FreeContacts&    f = a.contacts;
+		std::vector<int> moved;
+		f.mayGo = std::numeric_limits<Real>::infinity();
+		for (int b = 0; b < a.blockCount(); ++b) {
+			const Real limit = limitOf(f, b), went = std::sqrt(farthestMove(a, b, f.detectedAt));
+			if (everything || !(went <= lookAgain * limit)) {
+				moved.push_back(b);
+				for (int n = a.mesh.firstNode[b]; n < a.mesh.firstNode[b + 1]; ++n)
+					f.detectedAt[n] = a.state.displacement[n];
+				f.mayGo = std::min(f.mayGo, limit);
+			} else
+				f.mayGo = std::min(f.mayGo, limit - went);
+		}
+		f.lookedAt = a.state.displacement;
+		++f.looks;
+		if (moved.empty()) return;
+
+		std::vector<char> hasMoved(a.blockCount(), false);
+		for (int b : moved)
+			hasMoved[b] = true;
+		bool changed = false;
+		for (FreeContact& c : a.state.contacts) {
+			if (c.block[0] < 0 || !(hasMoved[c.block[0]] || hasMoved[c.block[1]])) continue;
+			detect(a, c);
+			const Real far = 4 * (limitOf(f, c.block[0]) + limitOf(f, c.block[1]));
+			if (!c.edges.empty() || boxOf(a, c.block[0]).meets(boxOf(a, c.block[1]), far)) continue;
+			a.state.lostFriction += c.friction;
+			c       = {};
+			changed = true;
+		}
+		if (changed) sortContacts(a);
+		for (const auto& key : newNeighbours(a, moved)) {
+			FreeContact candidate;
+			candidate.block = key;
+			detect(a, candidate);
+			if (candidate.edges.empty()) continue; // near, but no edges that could touch
+			FreeContact& made = a.state.contacts[makeContact(a, key)];
+			made.edges        = std::move(candidate.edges);
+			forgetActive(made);
+			changed = true;
+		}
+		if (changed) ++f.version;
+	}
+
+	/// Joints of which a point broke in the last step wait for their release.
+	void collectBroken(BlockAssembly& a)
+	{
+		FreeContacts& f      = a.contacts;
+		const auto    before = f.waiting.size();
+		for (size_t batch = 0; batch < a.forces.broke.size(); ++batch) {
+			if (!a.forces.broke[batch]) continue;
+			a.forces.broke[batch] = false;
+			const int last        = std::min(a.joints.count(), int(batch + 1) * Joints::batch);
+			for (int i = int(batch) * Joints::batch; i < last; ++i)
+				if (!a.state.released[i] && releaseOf(a, i) != Release::never) f.waiting.push_back(i);
+		}
+		if (f.waiting.size() == before) return;
+		std::sort(f.waiting.begin(), f.waiting.end());
+		f.waiting.erase(std::unique(f.waiting.begin(), f.waiting.end()), f.waiting.end());
+	}
+
+	void releaseBroken(BlockAssembly& a)
+	{
+		FreeContacts& f    = a.contacts;
+		size_t        kept = 0;
+		for (int joint : f.waiting) {
+			if (releaseOf(a, joint) != Release::now)
+				f.waiting[kept++] = joint;
+			else
+				release(a, joint, makeContact(a, a.joints.segments[joint].block));
+		}
+		if (kept == f.waiting.size()) return;
+		f.waiting.resize(kept);
+		a.listSides();
+		++f.version;
+	}
+
+} // namespace
+
+int pairOf(const BlockAssembly& a, const std::array<int, 2>& blocks)
+{
+	const auto& pairs = a.joints.pairs;
+	const auto  at    = std::lower_bound(pairs.begin(), pairs.end(), blocks, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
+	return at == pairs.end() || at->block != blocks ? -1 : int(at - pairs.begin());
+}
+
+int contactOf(const BlockAssembly& a, int block1, int block2)
+{
+	const FreeContacts& f   = a.contacts;
+	const auto          key = ordered(block1, block2);
+	if (key[0] + 1 >= int(f.firstOfBlock.size())) return -1;
+	for (int i = f.firstOfBlock[key[0]]; i < f.firstOfBlock[key[0] + 1]; ++i)
+		if (a.state.contacts[f.ofBlock[i]].block == key) return f.ofBlock[i];
+	return -1;
+}
+
+void prepareContacts(BlockAssembly& a)
+{
+	FreeContacts& f = a.contacts;
+	if (!f.started) {
+		start(a);
+		look(a, true);
+	} else {
+		followMotion(a);
+		const Real perAxis = f.mayGo * std::sqrt(Real(0.5)); // two axes, each by this much
+		if (countMoved(a.state.displacement.data()->data(), f.lookedAt.data()->data(), 2 * a.nodeCount(), perAxis) > 0) look(a, false);
+	}
+	collectBroken(a);
+	if (!f.waiting.empty()) releaseBroken(a);
+}
+
+} // namespace blocks

@@ -1,0 +1,18 @@
+// yade-blocks, GPL-2.0-or-later
+#pragma once
+#include <blocks/kernel/model/BlockAssembly.hpp>
+
+/// Who may touch whom. Whatever the speed, a contact is known before its edges meet: the grid points are compared in every step with where
+/// they were when neighbours were last looked for, and margins cover what they may have moved since.
+namespace blocks {
+
+/// Before forces: releases broken joints to free contacts and looks for neighbours, where something moved far or broke. Serial.
+void prepareContacts(BlockAssembly&);
+
+/// The contact of two blocks, or -1.
+int contactOf(const BlockAssembly&, int block1, int block2);
+
+/// The pair of bonded blocks, first < second, or -1.
+int pairOf(const BlockAssembly&, const std::array<int, 2>& blocks);
+
+} // namespace blocks

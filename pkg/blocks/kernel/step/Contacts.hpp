@@ -1,0 +1,39 @@
+// yade-blocks, GPL-2.0-or-later
+#pragma once
+#include <blocks/kernel/model/BlockAssembly.hpp>
+
+/// The step of free contacts: for every contact, in any order and in parallel, updateContact and advanceContact; sumForces adds the forces.
+namespace blocks {
+
+/// What rules the contact: validated joint parameters; only kn, ks and the residual values count.
+void setContactJoint(BlockAssembly&, int contact, const JointParams&);
+
+/// Geometry of all edge pairs of a contact.
+void updateContact(BlockAssembly&, int contact);
+
+/// Stresses and nodal forces of all edge pairs; dt times the nodes' velocities is the last step's motion.
+void advanceContact(BlockAssembly&, int contact, Real dt);
+
+/// Both of these for all contacts.
+void advanceContacts(BlockAssembly&, Real dt, int threads = 1);
+
+/// Adds the contact forces on one block's grid points, in a fixed order.
+void gatherContactForces(const BlockAssembly&, int block, Vec2* force);
+
+/// The share of contacts, of those that touch and those that may, in the bound of nodalStiffness [N/m].
+std::vector<Real> contactStiffness(const BlockAssembly&);
+
+Real contactEnergy(const BlockAssembly&);   ///< elastic energy of all contacts [J]
+Real contactFriction(const BlockAssembly&); ///< dissipated by friction in all contacts so far [J]
+
+/// An end of an active edge pair as Python sees it: where, which way, how deep, how much.
+struct ContactEnd {
+	Vec2 position;   ///< midway between the edges [m]
+	Vec2 normal;     ///< out of the first block
+	Real depth;      ///< [m]
+	Real sigma, tau; ///< [Pa]
+	Real area;       ///< [m2]
+};
+ContactEnd contactEnd(const BlockAssembly&, const FreeContact&, int active, int k);
+
+} // namespace blocks

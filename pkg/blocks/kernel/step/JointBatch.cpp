@@ -1,0 +1,81 @@
+// yade-blocks, GPL-2.0-or-later
+#include <blocks/kernel/Wide.hpp>
+#include <blocks/kernel/laws/JointKinematics.hpp>
+#include <blocks/kernel/step/JointBatch.hpp>
+
+namespace blocks {
+
+void gatherDisplacements(const BlockAssembly& a, int first, int count, JointBatch& b)
+{
+	const Vec2* u = a.state.displacement.data();
+	for (int i = 0; i < count; ++i) {
+		const auto& node = a.joints.node[first + i];
+		const Vec2 &a1 = u[node[0]], &b1 = u[node[1]], &a2 = u[node[2]], &b2 = u[node[3]];
+		b.u1x[i] = b1.x() - a1.x(), b.u1y[i] = b1.y() - a1.y();
+		b.u2x[i] = b2.x() - a2.x(), b.u2y[i] = b2.y() - a2.y();
+		b.ux[i] = a2.x() - a1.x(), b.uy[i] = a2.y() - a1.y();
+	}
+}
+
+WIDE void moveJoints(const JointColumns& columns, int first, int count, JointBatch& b)
+{
+	const Real *e1x = columns.e1x.data() + first, *e1y = columns.e1y.data() + first, *e2x = columns.e2x.data() + first, *e2y = columns.e2y.data() + first;
+	const Real *dx = columns.dx.data() + first, *dy = columns.dy.data() + first;
+	const Real *s1[2], *s2[2], *bondOpening[2], *bondSlip[2];
+	for (int k : { 0, 1 }) {
+		s1[k] = columns.s1[k].data() + first, s2[k] = columns.s2[k].data() + first;
+		bondOpening[k] = columns.bondOpening[k].data() + first, bondSlip[k] = columns.bondSlip[k].data() + first;
+	}
+#pragma GCC ivdep
+	for (int i = 0; i < count; ++i) {
+		const Real       x1 = e1x[i] + b.u1x[i], y1 = e1y[i] + b.u1y[i], x2 = e2x[i] + b.u2x[i], y2 = e2y[i] + b.u2y[i];
+		const JointFrame f = jointFrame(x1, y1, x2, y2);
+		b.nx[i] = f.nx, b.ny[i] = f.ny;
+		b.r1x[i] = f.r1x, b.r1y[i] = f.r1y, b.r2x[i] = f.r2x, b.r2y[i] = f.r2y;
+		const Real x = dx[i] + b.ux[i], y = dy[i] + b.uy[i];
+		for (int k = 0; k < 2; ++k) {
+			const Real gx = x + s2[k][i] * x2 - s1[k][i] * x1, gy = y + s2[k][i] * y2 - s1[k][i] * y1;
+			b.dn[k][i]      = gx * f.nx + gy * f.ny;
+			b.dt[k][i]      = gy * f.nx - gx * f.ny;
+			b.opening[k][i] = b.dn[k][i] - bondOpening[k][i];
+			b.slip[k][i]    = b.dt[k][i] - bondSlip[k][i];
+		}
+	}
+}
+
+WIDE int elasticStresses(int count, JointBatch& b)
+{
+	std::int64_t beyond = 0;
+#pragma GCC ivdep
+	for (int i = 0; i < count; ++i)
+		for (int k = 0; k < 2; ++k) {
+			const Real sigma = b.kn[i] * b.opening[k][i], tau = b.ks[i] * b.slip[k][i];
+			b.sigma[k][i] = sigma, b.tau[k][i] = tau;
+			beyond += (sigma > b.tension[i]) | (std::abs(tau) > b.cohesion[i] - sigma * b.tanPhi[i]);
+		}
+	return int(beyond);
+}
+
+WIDE void loadEdges(const JointColumns& columns, int first, int count, JointBatch& b)
+{
+	const Real *area = columns.area.data() + first, *s1[2], *s2[2];
+	for (int k : { 0, 1 })
+		s1[k] = columns.s1[k].data() + first, s2[k] = columns.s2[k].data() + first;
+#pragma GCC ivdep
+	for (int i = 0; i < count; ++i) {
+		Real a1x = 0, a1y = 0, b1x = 0, b1y = 0, a2x = 0, a2y = 0, b2x = 0, b2y = 0, moment = 0;
+		for (int k = 0; k < 2; ++k) {
+			const Real n = area[i] * b.sigma[k][i], t = area[i] * b.tau[k][i];
+			const Real fx = n * b.nx[i] - t * b.ny[i], fy = n * b.ny[i] + t * b.nx[i]; // on the first block
+			const Real w1 = s1[k][i], w2 = s2[k][i];
+			a1x += (1 - w1) * fx, a1y += (1 - w1) * fy, b1x += w1 * fx, b1y += w1 * fy;
+			a2x -= (1 - w2) * fx, a2y -= (1 - w2) * fy, b2x -= w2 * fx, b2y -= w2 * fy;
+			moment += n * b.dt[k][i] - t * b.dn[k][i];
+		}
+		const Real half = moment / 2; // each edge turns the frame by half its own rotation
+		b.fx[0][i] = a1x - half * b.r1x[i], b.fy[0][i] = a1y - half * b.r1y[i], b.fx[1][i] = b1x + half * b.r1x[i], b.fy[1][i] = b1y + half * b.r1y[i];
+		b.fx[2][i] = a2x - half * b.r2x[i], b.fy[2][i] = a2y - half * b.r2y[i], b.fx[3][i] = b2x + half * b.r2x[i], b.fy[3][i] = b2y + half * b.r2y[i];
+	}
+}
+
+} // namespace blocks

@@ -1,0 +1,141 @@
+// yade-blocks, GPL-2.0-or-later
+#pragma once
+#include <blocks/kernel/laws/JointKinematics.hpp>
+#include <blocks/kernel/step/Dissipation.hpp>
+#include <blocks/kernel/step/JointBatch.hpp>
+#include <type_traits>
+
+/// From the motion of the grid points to the forces of the joints.
+namespace blocks {
+
+/// A range of joints [first, last).
+struct JointRange {
+	int first, last;
+};
+inline JointRange allJoints(const BlockAssembly& a) { return { 0, a.joints.count() }; }
+inline JointRange jointsOf(const BlockAssembly& a, int pair) { return { a.joints.pairs[pair].first, a.joints.pairs[pair].last }; }
+
+/// Frame of a joint as its hosts are now.
+JointFrame frameOf(const BlockAssembly&, int joint);
+
+/// A contact point, midway between its two hosts [m].
+Vec2 contactPosition(const BlockAssembly&, int point);
+
+/// Opening and slip at all contact points of a range, into the state.
+void updateKinematics(BlockAssembly&, JointRange);
+
+/// Forces on the edges, from the stresses in the state and the present frames.
+void updateJointForces(BlockAssembly&, JointRange, int threads = 1);
+
+/// The paper's law, and the shape of a law of one's own: a function of a point's properties, state, opening and slip. `plainlyElastic`
+/// says that an intact point carries kn opening and ks slip until it is beyond tension or Mohr-Coulomb; then whole batches
+/// need not ask the law.
+struct Brittle {
+	static constexpr bool plainlyElastic = true;
+	JointStep operator()(const JointParams& p, const JointState& s, Real opening, Real slip) const { return advance(p, s, opening, slip); }
+};
+
+/// Works on a range of joints; one virtual call a range. A law of one's own may keep columns of its own, indexed by contact point.
+class JointLawOnRange {
+public:
+	virtual ~JointLawOnRange() = default;
+	/// Stresses and states of the joints' contact points from openings and slips, all in a.state.
+	virtual void advance(BlockAssembly&, JointRange) const = 0;
+};
+
+namespace step {
+	void gatherProperties(const Joints&, int first, int count, JointBatch&);
+	void storeMotion(BlockAssembly&, int first, int count, const JointBatch&);
+	void loadStresses(const BlockAssembly&, int first, int count, JointBatch&);
+	void storeStresses(BlockAssembly&, int first, int count, const JointBatch&);
+	void storeForces(BlockAssembly&, int first, int count, const JointBatch&);
+
+	template <class Law, class = void> struct IsPlainlyElastic : std::false_type {
+	};
+	template <class Law> struct IsPlainlyElastic<Law, std::enable_if_t<Law::plainlyElastic>> : std::true_type {
+	};
+
+	/// Stresses of joints first, first + 1, ... from their openings and slips in the batch; states change where joints break or slide.
+	/// Whether every contact point was intact and is.
+	template <class Law> bool advanceBatch(BlockAssembly& a, int first, int count, const Law& law, JointBatch& b)
+	{
+		State& s = a.state;
+		if constexpr (IsPlainlyElastic<Law>::value) {
+			gatherProperties(a.joints, first, count, b);
+			const Joint* status = s.status.data() + 2 * first;
+			int          whole  = 0;
+			for (int p = 0; p < 2 * count; ++p)
+				whole += status[p] == Joint::intact;
+			if (elasticStresses(count, b) == 0 && whole == 2 * count) return true;
+		}
+		for (int i = 0; i < count; ++i) {
+			if (a.joints.effective[first + i] == releasedKind) {
+				for (int k : { 0, 1 })
+					b.sigma[k][i] = b.tau[k][i] = 0;
+				continue;
+			}
+			const JointParams& params = a.joints.of(first + i);
+			for (int k : { 0, 1 }) {
+				const int       p   = 2 * (first + i) + k;
+				const JointStep now = law(params, s.joint(p), b.opening[k][i], b.slip[k][i]);
+				b.sigma[k][i]       = now.sigma;
+				b.tau[k][i]         = now.tau;
+				if (now.state.status != s.status[p]) a.forces.broke[first / Joints::batch] = true;
+				s.setJoint(p, now.state);
+			}
+		}
+		return false;
+	}
+
+	/// Calls work(first, count) for the batches that hold the range, each within one batch of Joints.
+	template <class Work> void forEachBatch(JointRange range, const Work& work)
+	{
+		for (int first = range.first; first < range.last;) {
+			const int last = std::min(range.last, (first / Joints::batch + 1) * Joints::batch);
+			work(first, last - first);
+			first = last;
+		}
+	}
+}
+
+/// Stresses and states of a range from the openings and slips in the state. For loops that come pair by pair.
+template <class Law> void advanceStresses(BlockAssembly& a, JointRange range, const Law& law)
+{
+	JointBatch b;
+	step::forEachBatch(range, [&](int first, int count) {
+		for (int i = 0; i < count; ++i)
+			for (int k : { 0, 1 })
+				b.opening[k][i] = a.state.opening[2 * (first + i) + k], b.slip[k][i] = a.state.slip[2 * (first + i) + k];
+		step::advanceBatch(a, first, count, law, b);
+		step::storeStresses(a, first, count, b);
+	});
+}
+
+/// Motion, stresses and forces of all joints in one pass. Every batch writes its own, so no order matters. With `account`,
+/// a.state.accounts gets what was dissipated.
+template <class Law> void advanceJoints(BlockAssembly& a, const Law& law, bool account = false, [[maybe_unused]] int threads = 1)
+{
+	if (account) a.forces.dissipated.assign(a.forces.broke.size(), {});
+	const int batches = int(a.forces.broke.size());
+#pragma omp parallel num_threads(threads) if (threads > 1)
+	{
+		JointBatch b;
+#pragma omp for schedule(static)
+		for (int batch = 0; batch < batches; ++batch) {
+			const int first = batch * Joints::batch, count = std::min(Joints::batch, a.joints.count() - first);
+			gatherDisplacements(a, first, count, b);
+			moveJoints(a.joints.columns, first, count, b);
+			BatchBefore before;
+			if (account) before.take(a.state, first, count);
+			const bool elastic = step::advanceBatch(a, first, count, law, b);
+			if (account && !elastic) a.forces.dissipated[batch] = dissipatedIn(a, first, count, before, b);
+			loadEdges(a.joints.columns, first, count, b);
+			step::storeMotion(a, first, count, b);
+			step::storeStresses(a, first, count, b);
+			step::storeForces(a, first, count, b);
+		}
+	}
+	if (account) bookDissipation(a);
+}
+
+} // namespace blocks

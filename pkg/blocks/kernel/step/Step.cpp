@@ -1,0 +1,68 @@
+// yade-blocks, GPL-2.0-or-later
+#include <algorithm>
+#include <blocks/kernel/step/Step.hpp>
+#include <blocks/kernel/step/ZoneForces.hpp>
+#include <cassert>
+
+namespace blocks {
+namespace {
+
+	/// Blocks [first, last), few enough that their forces stay in the nearest cache.
+	void sumBlocks(BlockAssembly& a, int first, int last, Real* energy)
+	{
+		Vec2*     force = a.forces.nodal.data();
+		const int node = a.mesh.firstNode[first], nodeEnd = a.mesh.firstNode[last];
+		if (a.supports.load.empty())
+			std::fill(force + node, force + nodeEnd, Vec2::Zero());
+		else
+			std::copy(a.supports.load.begin() + node, a.supports.load.begin() + nodeEnd, force + node);
+
+		const int*  sides  = a.joints.sides.data();
+		const auto* nodes  = a.joints.node.data();
+		const auto* forces = a.forces.joint.data();
+		for (int i = a.joints.firstSide[first], end = a.joints.firstSide[last]; i < end; ++i) {
+			const int joint = sides[i] >> 1, corner = 2 * (sides[i] & 1);
+			force[nodes[joint][corner]] += forces[joint][corner];
+			force[nodes[joint][corner + 1]] += forces[joint][corner + 1];
+		}
+		if (!a.contacts.order.empty())
+			for (int block = first; block < last; ++block)
+				gatherContactForces(a, block, force);
+		for (int run = first, next; run < last; run = next) {
+			const int material = a.mesh.blockMaterial[run];
+			for (next = run + 1; next < last && a.mesh.blockMaterial[next] == material; ++next) { }
+			addZoneForces(a, run, next, force, energy);
+		}
+	}
+
+	/// Blocks [first, last) in pieces of about a batch of zones.
+	void sumRange(BlockAssembly& a, int first, int last, Real* energy)
+	{
+		const auto& zone = a.mesh.firstZone;
+		for (int next; first < last; first = next) {
+			next = first + 1;
+			while (next < last && zone[next + 1] - zone[first] <= zoneBatch)
+				++next;
+			sumBlocks(a, first, next, energy);
+		}
+	}
+
+} // namespace
+
+void sumForces(BlockAssembly& a, bool account, int threads)
+{
+	assert(threads >= 1);
+	if (account) a.forces.zoneEnergy.assign(a.blockCount(), 0);
+	Real* const energy = account ? a.forces.zoneEnergy.data() : nullptr;
+	if (threads == 1) return sumRange(a, 0, a.blockCount(), energy);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (int part = 0; part < threads; ++part) { // blocks with about equal numbers of zones
+		auto begin = [&](int p) {
+			const auto& zone = a.mesh.firstZone;
+			return p == threads ? a.blockCount() : int(std::lower_bound(zone.begin(), zone.end() - 1, long(a.zoneCount()) * p / threads) - zone.begin());
+		};
+		sumRange(a, begin(part), begin(part + 1), energy);
+	}
+}
+
+} // namespace blocks
