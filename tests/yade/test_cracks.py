@@ -51,7 +51,8 @@ def test_theStepIsRight(tmp_path):
 	m, recorder = recorded(tmp_path, first['step'])
 	assert O.iter == first['step'] and not m.pointStatus.any() and recorder.events == []
 	O.run(1, True)
-	assert np.count_nonzero(m.pointStatus) == len(recorder.events) == len([e for e in [first]] + [e for e in recorder.events if e['step'] == first['step']]) - 1
+	assert np.count_nonzero(m.pointStatus) == len(recorder.events
+							) == len([e for e in [first]] + [e for e in recorder.events if e['step'] == first['step']]) - 1
 
 
 def test_longerPeriodMissesNothing(tmp_path):
