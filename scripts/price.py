@@ -177,7 +177,7 @@ class Row:
 rows = [
 	Row('general contact (collider + BlockContacts)', lambda model: addGeneralContact()),
 	Row('small strain instead of large displacement', lambda model: setattr(model, 'smallStrain', True)),
-	Row('dilation', lambda model: setJoints(dilationAngle=radians(4))),
+	Row('dilation', lambda model: setJoints(frictionAngleResidual=radians(4), dilationAngle=radians(4))), # it may not exceed it
 	Row('residual friction', lambda model: setJoints(frictionAngleResidual=radians(30))),
 	Row('gravity (dead loads)', lambda model: model.gravity((0, -9.81))),
 	Row('adaptive damping instead of local', lambda model: setattr(engine('BlockIntegrator'), 'damping', 'adaptive')),

@@ -75,6 +75,18 @@ def test_acrossSaveAndLoad(tmp_path):
 	assert (tmp_path / 'whole.txt').read_text() == (tmp_path / 'parts.txt').read_text()
 
 
+def test_clockSetBackForgetsNothing(tmp_path):
+	"""O.resetTime() is no rescue: what happened stays, and what follows is added."""
+	m, recorder = recorded(tmp_path, 1500)
+	before = recorder.events
+	assert len(before) > 3
+	O.resetTime()
+	O.run(200, True)
+	events = O.engines[-1].events
+	assert events[:len(before)] == before and len(events) > len(before) and {e['step'] <= 200 for e in events[len(before):]} == {True}
+	assert sorted(recorder.points) == np.flatnonzero(m.pointStatus).tolist() and len(lines(tmp_path / 'cracks.txt')) == len(events)
+
+
 def test_whatIsBrokenAlreadyIsNoEvent(tmp_path):
 	m = couplet()
 	O.run(1350, True)

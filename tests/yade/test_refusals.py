@@ -236,7 +236,10 @@ def test_boundaryConditions(action, words):
 		*[({name: v}, [name, 'pi/2', '%.17g' % v]) for name in ('frictionAngle', 'dilationAngle', 'frictionAngleResidual')
 			for v in (-0.1, 1.6, 38., nan)], (dict(cohesionResidual=1e6), ['cohesionResidual', 'exceed']),
 		(dict(tensionResidual=1e6), ['tensionResidual', 'exceed']), (dict(dilationLimitSlip=-0.5), ['dilationLimitSlip', '-0.5']),
-		(dict(dilationLimitSlip=nan), ['dilationLimitSlip']), (dict(material1=''), ['material1', '""'])
+		(dict(dilationLimitSlip=nan), ['dilationLimitSlip']),
+		(dict(dilationAngle=0.25, frictionAngleResidual=0.125), ['dilationAngle', 'frictionAngleResidual', '0.25', '0.125']),
+		(dict(dilationAngle=0.75, frictionAngle=0.5), ['dilationAngle', 'frictionAngleResidual', '0.75', '0.5']),
+		 (dict(material1=''), ['material1', '""'])
 	]
 )
 def test_jointProperties(change, words):
@@ -324,6 +327,48 @@ def test_missingEngine(without, words, run):
 	standing()
 	O.engines = O.engines[:without] + O.engines[without + 1:]
 	says(refusal(steps(run)), *words)
+
+
+@running
+def test_twoEnginesThatMove(run):
+	standing()
+	O.engines = O.engines + [BlockIntegrator(rescueFile='')]
+	says(refusal(steps(run)), 'O.engines', 'one BlockIntegrator', 'two')
+	standing()
+	O.engines = O.engines + [NewtonIntegrator(), NewtonIntegrator()]
+	says(refusal(steps(run)), 'O.engines', 'one NewtonIntegrator', 'two')
+	standing()
+	O.engines = O.engines + [NewtonIntegrator(), NewtonIntegrator(dead=True), BlockIntegrator(dead=True)]
+	O.run(10, True) # one for other bodies, and those that do nothing
+
+
+@running
+def test_gravityThatBlocksWouldNotFeel(run):
+	standing()
+	O.engines = O.engines + [NewtonIntegrator(gravity=(0, -9.75, 0))]
+	says(refusal(steps(run)), 'NewtonIntegrator.gravity', 'BlockModel.gravity', '-9.75')
+	O.engines[-1].gravity = (0, 0, 0)
+	O.run(10, True)
+	O.engines[-1].gravity = (0, -9.75, 0) # noticed within 100 steps
+	says(refusal(lambda: O.run(100, True)), 'NewtonIntegrator.gravity')
+
+
+def test_decimalPointInEveryLocale(tmp_path):
+	"""Numbers in messages and files, in a language that writes 0,25."""
+	source = subprocess.run(['localedef', '-i', 'de_DE', '-f', 'UTF-8', str(tmp_path / 'de_DE.UTF-8')], capture_output=True, text=True)
+	if not (tmp_path / 'de_DE.UTF-8').exists(): pytest.skip('no locales to try: ' + source.stderr)
+	run = runYade("""
+from scenes import *
+import locale
+locale.setlocale(locale.LC_ALL, 'de_DE.UTF-8')
+print('comma', locale.str(0.5))
+for wrong in -0.5, 1e-9, 0.1:
+	try: BlockModel(thickness=-abs(wrong))
+	except ValueError as error: print(error)
+""", cwd=tmp_path, env=dict(LOCPATH=str(tmp_path)))
+	assert 'comma 0,5' in run.stdout, run.stdout + run.stderr
+	for shown in 'got -0.5', 'got -1.0000000000000001e-09', 'got -0.10000000000000001':
+		assert shown in run.stdout, run.stdout + run.stderr
 
 
 @running

@@ -572,3 +572,22 @@ def test_rigidBlocksAreDrawnWithTheirHoles():
 	assert (areas > 0).all() and areas.sum() == pytest.approx(16 - 2 - 0.5 - 0.25)
 	for wrong in (-1, 1):
 		says(str(pytest.raises(ValueError, model.cornerTriangles, wrong).value), 'BlockModel.cornerTriangles', 'block', str(wrong))
+
+
+@pytest.mark.parametrize('quasiStatic, said', [(False, True), (True, False)])
+def test_nothingLimitsTheTimeStep(tmp_path, quasiStatic, said):
+	"""A rigid block alone: O.dt stays YADE's 1e-8 s, which must not go unnoticed."""
+	run = runYade("""
+import yadeblocks
+from yade import *
+from yadeblocks.specimen import rectangle
+O.materials.append(BlockMat(label='steel', young=200e9, poisson=0.3, density=7800))
+model = BlockModel(thickness=1)
+model.addRigid(rectangle(0, 0, 1, 1), 'steel')
+model.insert()
+O.engines = [ForceResetter(), BlockTimeStepper(quasiStatic=%s), BlockForces(), NewtonIntegrator(), BlockIntegrator(rescueFile='')]
+O.run(5, True)
+print('dt', O.dt)
+""" % quasiStatic, cwd=tmp_path)
+	assert 'dt 1e-08' in run.stdout and run.returncode == 0, run.stdout + run.stderr
+	assert ((run.stdout + run.stderr).count('nothing limits the time step') == 1) == said

@@ -65,7 +65,7 @@ Real loadWork(const BlockAssembly& a)
 
 Real groupWork(const BlockAssembly& a)
 {
-	Real sum = 0;
+	Real sum = a.released.work;
 	for (const MotionGroup& g : a.groups)
 		sum += g.work;
 	return sum;

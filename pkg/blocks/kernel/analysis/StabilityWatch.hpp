@@ -50,6 +50,7 @@ private:
 		std::vector<Vec2>         position, velocity;
 		std::vector<ContactPoint> points;
 		std::vector<MotionGroup>  groups;
+		ReleasedWork              released;
 		std::vector<RigidBlock>   rigid;
 		FreeContacts              contacts; ///< and the segments, whose areas end with their release
 		std::vector<Segment>      segments;

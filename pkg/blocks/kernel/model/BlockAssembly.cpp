@@ -221,6 +221,15 @@ int BlockAssembly::addGroup(MotionGroup group)
 	return int(groups.size()) - 1;
 }
 
+void BlockAssembly::releaseGroup(int group)
+{
+	const MotionGroup& g = groups[group];
+	released.work += g.work + g.pendingWork; // the half step since the last time of forces is past, too
+	released.turnover += g.workTurnover + std::abs(g.pendingWork);
+	groups.erase(groups.begin() + group);
+	updateMobility();
+}
+
 void BlockAssembly::updateMobility()
 {
 	for (int n = 0; n < nodeCount(); ++n)
