@@ -44,13 +44,14 @@ modelsOf = { # of YADE: spheres, and polyhedra with MortarMat; planes and Mortar
 	"tension": ("jcfpm", "jcfpmSmooth", "cohfrict", "cpm", "lourenco", "polyhedra"), "shear": ("jcfpm", "jcfpmSmooth", "cohfrict", "cpm", "lourenco", "polyhedra"),
 	"compression": ("jcfpm", "cohfrict", "cpm")}
 
-p = scenario.parameters(
-	{"mode": "quick", "experiment": "all", "seeds": 5, "jobs": os.cpu_count() or 1, "model": "all", "limit": 1800.0, "retry": False, "out": "out/benchmark"},
-	{"mode": ("quick", "full", "calibrate"), "experiment": ("all", "tension", "shear", "compression"), "model": ("all", "blocks", *modelsOf["shear"]), "seeds": scenario.atLeastOne, "jobs": scenario.atLeastOne, "limit": scenario.positive},
-	scenario="benchmark")
-experiments = ("tension", "shear", "compression") if p.experiment == "all" else (p.experiment,)
+p = scenario.parameters({
+	"mode": "quick", "experiment": "all", "seeds": 5, "jobs": os.cpu_count() or 1, "model": "all", "limit": 1800.0, "retry": False, "out": "out/benchmark"
+}, {
+	"mode": ("quick", "full", "calibrate"), "experiment": ("all", "tension", "shear", "compression"), "model": ("all", "blocks", *modelsOf["shear"]),
+	"seeds": scenario.atLeastOne, "jobs": scenario.atLeastOne, "limit": scenario.positive
+}, scenario="benchmark")
+experiments = ("tension", "shear", "compression") if p.experiment == "all" else (p.experiment, )
 sigmas = (0.1e6, 0.5e6, 1e6) # [Pa], shear
-
 
 # ---- the study: for each experiment lines of (knob, what changes the specimen, what changes only the way it is computed)
 
@@ -58,11 +59,25 @@ slow = { # steps of the reference; half of them show how far it is converged
 	"quick": {"tension": 80000, "shear": 24000, "compression": 30000}, "full": {"tension": 320000, "shear": 96000, "compression": 120000}}
 middle = ("tension", "shear 0.5", "compression") # of three stresses one is enough for slow runs of every specimen
 
-def steps(*numbers): return [("steps", {}, {"steps": n}) for n in numbers]
-def way(knob, n, *values, **more): return [(knob, {}, {"steps": n, knob: value, **more}) for value in values]
-def specimen(knob, n, *values): return [(knob, value if isinstance(value, dict) else {knob: value}, {"steps": n}) for value in values]
-def oneSet(n): return [("one set", {"cohesion": 0.6e6, "tension": 0.6e6, "friction": 38.0, "residualFriction": 38.0}, {"steps": n})] # Table 3 in shear
-def layers(unit, mortar): return {"unitSize": unit, "mortarSize": mortar}
+
+def steps(*numbers):
+	return [("steps", {}, {"steps": n}) for n in numbers]
+
+
+def way(knob, n, *values, **more):
+	return [(knob, {}, {"steps": n, knob: value, **more}) for value in values]
+
+
+def specimen(knob, n, *values):
+	return [(knob, value if isinstance(value, dict) else {knob: value}, {"steps": n}) for value in values]
+
+
+def oneSet(n):
+	return [("one set", {"cohesion": 0.6e6, "tension": 0.6e6, "friction": 38.0, "residualFriction": 38.0}, {"steps": n})] # Table 3 in shear
+
+
+def layers(unit, mortar):
+	return {"unitSize": unit, "mortarSize": mortar}
 
 blocks = { # a setting that a scenario refuses is in the table as failed
 	"quick": {
@@ -73,20 +88,22 @@ blocks = { # a setting that a scenario refuses is in the table as failed
 		"compression": steps(5000, 10000)},
 	"full": {
 		"tension": steps(1000, 2500, 5000, 10000, 20000, 40000, 80000) + way("alpha", 10000, 0.1, 0.3, 0.5) + way("alpha", 40000, 0.1, 0.3, 0.5)
-			+ way("damping", 10000, "adaptive", "none") + way("damping", 40000, "adaptive", "none") + way("jump", 5000, False) + way("jump", 20000, False)
-			+ way("servo", 2500, True) + way("servo", 10000, True) + way("servo", 10000, True, jump=False) + way("safety", 20000, 0.4) + way("safety", 20000, 0.9, alpha=0.1) + way("alpha", 20000, 0.1)
-			+ specimen("size", 40000, 1e-3, 1.5e-3, 3e-3, 6e-3) + specimen("plane", 40000, "stress") + specimen("units", 40000, "voronoi"),
+		+ way("damping", 10000, "adaptive", "none") + way("damping", 40000, "adaptive", "none") + way("jump", 5000, False) + way("jump", 20000, False)
+		+ way("servo", 2500, True) + way("servo", 10000, True) + way("servo", 10000, True, jump=False) + way("safety", 20000, 0.4) + way("safety", 20000, 0.9, alpha=0.1) + way("alpha", 20000, 0.1)
+		+ specimen("size", 40000, 1e-3, 1.5e-3, 3e-3, 6e-3) + specimen("plane", 40000, "stress") + specimen("units", 40000, "voronoi"),
 		**dict.fromkeys(("shear 0.1", "shear 0.5", "shear 1.0"), steps(1500, 3000, 6000, 12000, 24000, 48000) + oneSet(24000) + way("alpha", 12000, 0.1, 0.5, 0.8)
-			+ way("damping", 12000, "adaptive", "none") + way("jump", 12000, False) + way("servo", 3000, True)
-			+ way("safety", 12000, 0.4, 0.85) + specimen("size", 12000, 2.5e-3, 5e-3) + specimen("plane", 12000, "stress") + specimen("units", 12000, "voronoi")),
+				+ way("damping", 12000, "adaptive", "none") + way("jump", 12000, False) + way("servo", 3000, True)
+				+ way("safety", 12000, 0.4, 0.85) + specimen("size", 12000, 2.5e-3, 5e-3) + specimen("plane", 12000, "stress") + specimen("units", 12000, "voronoi")),
 		"compression": steps(2500, 5000, 10000, 20000, 30000, 60000) + way("alpha", 30000, 0.1, 0.4, 0.8)
-			+ way("damping", 30000, "adaptive", "none") + way("jump", 10000, False) + way("servo", 5000, True)
-			+ way("safety", 20000, 0.4, 0.85) + specimen("size", 30000, layers(15e-3, 4.5e-3), layers(7e-3, 3e-3)) + specimen("plane", 30000, "stress") + specimen("units", 30000, "plain")}}
+		+ way("damping", 30000, "adaptive", "none") + way("jump", 10000, False) + way("servo", 5000, True)
+		+ way("safety", 20000, 0.4, 0.85) + specimen("size", 30000, layers(15e-3, 4.5e-3), layers(7e-3, 3e-3)) + specimen("plane", 30000, "stress") + specimen("units", 30000, "plain")}}
 spheres = { # multiples of the steps and radius they were calibrated with (slow: of the references' steps where they are not 4; None: no references); packings: at most so many
 	"quick": {"steps": (1,), "slow": None, "radius": (), "stresses": ("0.5",), "packings": 4, "without": [("lourenco", "shear"), ("polyhedra", "shear")]}, # they take four times as long as the others
 	"full": {"steps": (0.25, 0.5, 1), "slow": {"lourenco shear": None, "polyhedra shear": 2, "cohfrict shear": 2}, "radius": (0.7,), "stresses": ("0.1", "0.5", "1.0"), "packings": 4, "without": []}}
 radius = {"tension": 1.5e-3, "shear": 2e-3, "compression": 2.5e-3} # of the spheres in the mortar [m], as in spheres.py
-sphereSteps = {"tension": 20000, "shear": 8000, "compression": 10000, "cohfrict shear": 32000} # as in spheres.py, but CohFrict: in 8000 it is twice as strong as when loaded slowly
+sphereSteps = {
+	"tension": 20000, "shear": 8000, "compression": 10000, "cohfrict shear": 32000
+} # as in spheres.py, but CohFrict: in 8000 it is twice as strong as when loaded slowly
 
 
 class Point(NamedTuple):
@@ -121,12 +138,16 @@ def blockPoints(mode, case, lines):
 	reference = lambda specimen: {**base, **specimen, "steps": slow[mode][experiment] // (2 if specimen else 1)}
 	specimens = []
 	for knob, specimen, way in lines:
-		compared = (mode == "full" and case in middle and knob != "one set" and specimen != {"units": "plain"}) if specimen else (mode == "full" or case in middle) # plain bricks never crush
+		compared = (mode == "full" and case in middle and knob != "one set"
+				and specimen != {"units": "plain"}) if specimen else (mode == "full" or case in middle) # plain bricks never crush
 		label = inWords({**way, **specimen}) if knob != "one set" else inWords(way) + ", the joints of tension"
 		yield Point(case, "blocks", knob, label, experiment, {**base, **specimen, **way}, reference(specimen) if compared else None)
 		if compared and specimen not in specimens: specimens.append(specimen)
 	for specimen in specimens:
-		yield Point(case, "blocks", "reference", inWords({"steps": reference(specimen)["steps"], **specimen}), experiment, reference(specimen), reference(specimen), True)
+		yield Point(
+			case, "blocks", "reference", inWords({"steps": reference(specimen)["steps"], **specimen}), experiment, reference(specimen),
+			reference(specimen), True
+		)
 	half = {**base, "steps": slow[mode][experiment] // 2}
 	if {} in specimens: yield Point(case, "blocks", "half as slow", inWords({"steps": half["steps"]}), experiment, half, reference({}))
 
@@ -139,7 +160,7 @@ def yadePoints(mode, case, model, known):
 	calibrated = known[f"{model} {experiment}"]["parameters"]
 	factor = wanted["slow"] and wanted["slow"].get(f"{model} {experiment}", 4)
 	slowest = {**base, **calibrated, "steps": factor * stepsOf(model, experiment)} if factor and case in middle else None
-	for part in wanted["steps"] if case in middle else (1,):
+	for part in wanted["steps"] if case in middle else (1, ):
 		way = {"steps": int(part * stepsOf(model, experiment))}
 		yield Point(case, model, "steps", inWords(way), script, {**base, **calibrated, **way}, slowest)
 	if slowest: yield Point(case, model, "reference", inWords({"steps": slowest["steps"]}), script, slowest, slowest, True)
@@ -150,7 +171,8 @@ def yadePoints(mode, case, model, known):
 	if case == "shear 0.5" and model == "cpm": # whether any friction would give the residual
 		way = {"steps": stepsOf(model, experiment), "friction": 5.0, "residualFriction": 5.0}
 		yield Point(case, model, "low friction", "friction 5 degrees", script, {**base, **calibrated, **way}, None)
-	if case in ("shear 0.5", "compression") and (mode == "full" or model == "jcfpm") and f"{model} tension" in known: # what one set of parameters for all three gives
+	if case in ("shear 0.5", "compression"
+			) and (mode == "full" or model == "jcfpm") and f"{model} tension" in known: # what one set of parameters for all three gives
 		foreign = smaller(model, known[f"{model} tension"]["parameters"], radius[experiment] / radius["tension"])
 		foreign = {**foreign, "unitStrength": 10.7 if experiment == "compression" else 1000} # else the prism's bricks would never break
 		yield Point(case, model, "one set", "the parameters found in tension", script, {**base, **foreign, "steps": stepsOf(model, experiment)}, None)
@@ -172,8 +194,12 @@ def stressOf(case):
 
 def inWords(settings):
 	"""A setting in a few words: what it is in mm, thousands of steps, and so on."""
-	words = {"steps": lambda n: f"{n / 1000:g}k steps", "size": lambda x: f"{1e3 * x:g} mm", "unitSize": lambda x: f"{1e3 * x:g}", "mortarSize": lambda x: f"/ {1e3 * x:g} mm",
-		"radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}", "units": lambda x: f"{x} units", "damping": lambda x: f"{x} damping", "servo": lambda on: "servo" if on else "no servo", "jump": lambda on: "jump" if on else "no jump"}
+	words = {
+		"steps": lambda n: f"{n / 1000:g}k steps", "size": lambda x: f"{1e3 * x:g} mm", "unitSize": lambda x: f"{1e3 * x:g}",
+		"mortarSize": lambda x: f"/ {1e3 * x:g} mm", "radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}",
+		"units": lambda x: f"{x} units", "damping": lambda x: f"{x} damping", "servo": lambda on: "servo"
+		if on else "no servo", "jump": lambda on: "jump" if on else "no jump"
+	}
 	return " ".join(words.get(key, lambda x: f"{key} {x}")(value) for key, value in settings.items())
 
 
@@ -193,17 +219,27 @@ def report(jobs, experiment, all):
 	rows = []
 	for point in all:
 		results = get(point, point.settings)
-		rows.append(tradeoff.summarise(point.case, point.model, point.knob, point.label, names, results, truths(point.case, point.model, results), get(point, point.slow) if point.slow else {}, point.isReference))
+		rows.append(
+			tradeoff.summarise(
+				point.case, point.model, point.knob, point.label, names, results, truths(point.case, point.model, results),
+				get(point, point.slow) if point.slow else {}, point.isReference
+			)
+		)
 	cases = {case: [row for row in rows if row.case == case] for case in dict.fromkeys(row.case for row in rows)}
 	most = lambda case: 10 if case in middle and len(cases) == 1 else 8 if case in middle else 3
 	texts = {case: tradeoff.reading(mine, names, most=most(case)) for case, mine in cases.items()}
-	lines = [f"{case}: {line}" if len(cases) > 1 else line for case in sorted(cases, key=lambda case: case not in middle) for line in texts[case]] + list(staleCalibrations(experiment))
+	lines = [f"{case}: {line}" if len(cases) > 1 else line for case in sorted(cases, key=lambda case: case not in middle) for line in texts[case]
+			] + list(staleCalibrations(experiment))
 	lines.append(f"CPU seconds of {machine()}, {p.jobs} runs at a time, the building of the specimen included.")
 	place = jobs.folder / f"{experiment}-{p.mode}"
 	pandas.DataFrame(tradeoff.asRecords(rows)).to_csv(f"{place}.csv", index=False, float_format="%.6g")
 	pandas.DataFrame(runRecords(jobs, all)).to_csv(f"{place}-runs.csv", index=False, float_format="%.6g")
-	Path(f"{place}.md").write_text(f"# {experiment}, {p.mode} mode\n\n" + "\n".join("- " + line for line in lines) + "\n\n" + tradeoff.asMarkdown(rows, names) + "\n")
-	tradeoffpicture.drawTradeoff(f"{place}.png", cases, names, lines, title=f"{experiment}: error over CPU time, {max(len(point.seeds) for point in all)} seeds a point, {min(p.seeds, spheres[p.mode]['packings'])} packings of YADE's models")
+	Path(f"{place}.md"
+		).write_text(f"# {experiment}, {p.mode} mode\n\n" + "\n".join("- " + line for line in lines) + "\n\n" + tradeoff.asMarkdown(rows, names) + "\n")
+	tradeoffpicture.drawTradeoff(
+		f"{place}.png", cases, names, lines, title=
+		f"{experiment}: error over CPU time, {max(len(point.seeds) for point in all)} seeds a point, {min(p.seeds, spheres[p.mode]['packings'])} packings of YADE's models"
+	)
 	print(f"\n{experiment}\n" + "\n".join(lines) + f"\nsee {place}.png, .md, .csv", flush=True)
 
 
@@ -212,15 +248,21 @@ def runRecords(jobs, all):
 	for point in all:
 		for seed in point.seeds:
 			result = jobs.result(Job(point.script, point.settings, seed))
-			if result: yield {"case": point.case, "model": point.model, "setting": point.label, "seed": seed, **result.get("measures", {}), "cpu_s": result.get("cost", {}).get("cpu_s"),
-				"steps": result.get("cost", {}).get("steps"), "runs_at_a_time": result.get("parallel"), "unbalanced_ratio_max": result.get("quality", {}).get("unbalanced_ratio_max"), "failed": result.get("failed"), "command": result["command"]}
+			if result:
+				yield {
+					"case": point.case, "model": point.model, "setting": point.label, "seed": seed,
+					**result.get("measures", {}), "cpu_s": result.get("cost", {}).get("cpu_s"), "steps": result.get("cost",
+																	{}).get("steps"),
+					"runs_at_a_time": result.get("parallel"), "unbalanced_ratio_max": result.get("quality", {}).get("unbalanced_ratio_max"),
+					"failed": result.get("failed"), "command": result["command"]
+				}
 
 
 # ---- calibration of YADE's models: each model and experiment anew, since no set of parameters serves two experiments
 
+
 class Fit:
 	"""How a model is calibrated for an experiment: where to start, which quantity is moved by which parameter, what follows from it."""
-
 	def __init__(self, start, targets, governs, seeds, tied):
 		self.start, self.targets, self.governs, self.seeds, self.tied = start, targets, governs, seeds, tied
 
@@ -229,11 +271,14 @@ class Fit:
 		return _short(self.tied(q))
 
 
-def _short(values): return {key: float(f"{value:.5g}") for key, value in values.items()}
+def _short(values):
+	return {key: float(f"{value:.5g}") for key, value in values.items()}
 
 
 degrees = lambda tangent: math.degrees(math.atan(tangent))
-smoothPlanes = lambda q, experiment: {"jointStiffness": q["mortarYoung"] / (math.pi * radius[experiment])} # a bond's kn is E R, a plane's is stiffness times pi R^2
+smoothPlanes = lambda q, experiment: {
+	"jointStiffness": q["mortarYoung"] / (math.pi * radius[experiment])
+} # a bond's kn is E R, a plane's is stiffness times pi R^2
 
 
 def polyhedraFit(experiment, known):
@@ -241,10 +286,15 @@ def polyhedraFit(experiment, known):
 	seeds = (101, 102, 103)
 	if experiment == "tension":
 		return Fit({"kn": 400e9, "tension": 0.6e6}, {name: value for name, (value, source) in curves.expectations("tension").items()},
-			{"peak_tensile_stress": "tension", "joint_stiffness": "kn"}, seeds, lambda q: {**q, "cohesion": q["tension"], "friction": 38})
+				{"peak_tensile_stress": "tension", "joint_stiffness": "kn"}, seeds, lambda q: {**q, "cohesion": q["tension"], "friction": 38})
 	kn = known["polyhedra tension"]["parameters"]["kn"]
-	return Fit({"cohesion": 3e6}, {"middle": 1.375}, {"middle": "cohesion"}, seeds, # bonds break in tension: friction angles of 62 and 83 degrees came no nearer to the slope
-		lambda q: {"kn": kn, "cohesion": q["cohesion"], "tension": q["cohesion"] / 2, "friction": 45})
+	return Fit(
+		{"cohesion": 3e6},
+		{"middle": 1.375},
+		{"middle": "cohesion"},
+		seeds, # bonds break in tension: friction angles of 62 and 83 degrees came no nearer to the slope
+		lambda q: {"kn": kn, "cohesion": q["cohesion"], "tension": q["cohesion"] / 2, "friction": 45}
+	)
 
 
 def fits(model, experiment, known):
@@ -252,32 +302,62 @@ def fits(model, experiment, known):
 	laboratory stiffness is given."""
 	if model == "polyhedra": return polyhedraFit(experiment, known)
 	if experiment == "tension": # Tables 1 and 3: cohesion = tensile strength; bricks 22 times as stiff as the mortar layer with its joints
+
 		def tied(q):
-			q = {**q, "cohesion": q["tension"], "unitYoung": 22 * q["mortarYoung"], "poisson": 0.5, "unitStrength": 1000, "friction": 38, "residualFriction": 38, "ductility": 2}
-			return q if model != "jcfpmSmooth" else {**q, **smoothPlanes(q, experiment), "jointTension": q["tension"], "jointCohesion": q["cohesion"], "jointFriction": 38}
+			q = {
+				**q, "cohesion": q["tension"], "unitYoung": 22 * q["mortarYoung"], "poisson": 0.5, "unitStrength": 1000, "friction": 38,
+				"residualFriction": 38, "ductility": 2
+			}
+			return q if model != "jcfpmSmooth" else {
+				**q, **smoothPlanes(q, experiment), "jointTension": q["tension"], "jointCohesion": q["cohesion"], "jointFriction": 38
+			}
+
 		return Fit({"mortarYoung": 1.6e9, "tension": 1e6}, {name: value for name, (value, source) in curves.expectations("tension").items()},
-			{"peak_tensile_stress": "tension", "joint_stiffness": "mortarYoung"}, (101, 102, 103), tied)
+				{"peak_tensile_stress": "tension", "joint_stiffness": "mortarYoung"}, (101, 102, 103), tied)
 	if experiment == "shear": # Table 5: tensile strength = half the cohesion; mortar stiffer by 1.05 (series of mortar and joints, sides of 3.5 for 3.2 mm), bricks 21 times the mortar
 		young = 1.05 * known[f"{model} tension"]["parameters"]["mortarYoung"]
+
 		def tied(q):
-			elastic = {"mortarYoung": young, "unitYoung": 21 * young, "poisson": 0.5, "unitStrength": 1000, "ductility": 2, "tension": q["cohesion"] / 2, "cohesion": q["cohesion"]}
+			elastic = {
+				"mortarYoung": young, "unitYoung": 21 * young, "poisson": 0.5, "unitStrength": 1000, "ductility": 2,
+				"tension": q["cohesion"] / 2, "cohesion": q["cohesion"]
+			}
 			if model == "jcfpmSmooth": # a plane has one friction only: that of the residual; the layers in between are stronger than the planes
-				return {**elastic, **smoothPlanes(elastic, experiment), "jointCohesion": q["cohesion"], "jointTension": q["cohesion"] / 2, "cohesion": 3 * q["cohesion"],
-					"tension": 1.5 * q["cohesion"], "jointFriction": degrees(q["tangent"]), "friction": 45, "residualFriction": 36}
-			return {**elastic, "friction": degrees(q["tangent"]), "residualFriction": degrees(q["tangent"]) if model in ("jcfpm", "cohfrict") else 36}
-		start, targets, governs = {"cohesion": 3e6, "tangent": 1.0}, {"intercept": 0.87, "slope": 1.01}, {"intercept": "cohesion", "slope": "tangent"} # of the line through the three peaks
+				return {
+					**elastic, **smoothPlanes(elastic, experiment), "jointCohesion": q["cohesion"], "jointTension": q["cohesion"] / 2,
+					"cohesion": 3 * q["cohesion"], "tension": 1.5 * q["cohesion"], "jointFriction": degrees(q["tangent"]), "friction": 45,
+					"residualFriction": 36
+				}
+			return {
+				**elastic, "friction": degrees(q["tangent"]),
+				"residualFriction": degrees(q["tangent"]) if model in ("jcfpm", "cohfrict") else 36
+			}
+
+		start, targets, governs = {"cohesion": 3e6, "tangent": 1.0}, {"intercept": 0.87, "slope": 1.01}, {
+			"intercept": "cohesion", "slope": "tangent"
+		} # of the line through the three peaks
 		if model in ("jcfpm", "cohfrict"): # friction moves the residual, hardly the slope of the peaks: bonds break in tension
-			start, targets, governs = {"cohesion": 5e6, "tangent": 0.1}, {"middle": 1.375, "residual": 0.365}, {"middle": "cohesion", "residual": "tangent"}
+			start, targets, governs = {"cohesion": 5e6, "tangent": 0.1}, {"middle": 1.375,
+											"residual": 0.365}, {"middle": "cohesion", "residual": "tangent"}
 		if model == "cpm": # neither of both: with a friction of 5 degrees its residual is as high as before
 			start, targets, governs = {"cohesion": 4.5e6, "tangent": 1.0}, {"middle": 1.375}, {"middle": "cohesion"}
 		if model == "jcfpmSmooth": # friction is needed for the residual, so the planes' cohesion has to make up for the slope: 0.95 is the best line of slope 0.73 + what bulk bonds add
-			start, targets, governs = {"cohesion": 1.5e6, "tangent": 0.73}, {"intercept": 0.95, "residual": 0.365}, {"intercept": "cohesion", "residual": "tangent"}
+			start, targets, governs = {"cohesion": 1.5e6,
+							"tangent": 0.73}, {"intercept": 0.95,
+										"residual": 0.365}, {"intercept": "cohesion", "residual": "tangent"}
 		return Fit(start, targets, governs, (101, 102, 103), tied)
+
 	def tied(q): # Tables 7 to 9: bricks 8 times as stiff as mortar with their joints, 10.7 times as strong; cohesion twice the tensile strength
-		q = {**q, "cohesion": 2 * q["tension"], "unitYoung": 8 * q["mortarYoung"], "poisson": 0.5, "unitStrength": 10.7, "friction": 17, "residualFriction": 0.1, "ductility": 2}
-		return q if model != "jcfpmSmooth" else {**q, **smoothPlanes(q, experiment), "jointTension": q["tension"], "jointCohesion": q["cohesion"], "jointFriction": 15}
+		q = {
+			**q, "cohesion": 2 * q["tension"], "unitYoung": 8 * q["mortarYoung"], "poisson": 0.5, "unitStrength": 10.7, "friction": 17,
+			"residualFriction": 0.1, "ductility": 2
+		}
+		return q if model != "jcfpmSmooth" else {
+			**q, **smoothPlanes(q, experiment), "jointTension": q["tension"], "jointCohesion": q["cohesion"], "jointFriction": 15
+		}
+
 	return Fit({"mortarYoung": 2.3e9, "tension": 1.7e6}, {"compressive_strength": 27.5, "youngs_modulus": 4100},
-		{"compressive_strength": "tension", "youngs_modulus": "mortarYoung"}, tuple(range(101, 111)), tied) # packings differ by a sixth
+			{"compressive_strength": "tension", "youngs_modulus": "mortarYoung"}, tuple(range(101, 111)), tied) # packings differ by a sixth
 
 
 def evaluate(jobs, model, experiment, parameters, seeds):
@@ -289,7 +369,10 @@ def evaluate(jobs, model, experiment, parameters, seeds):
 	jobs.do([job for case in asked for job in case])
 	found = [[jobs.result(job) for job in case] for case in asked]
 	for result in (result for case in found for result in case):
-		if "failed" in result: return dict.fromkeys(("intercept", "slope", "middle", "residual", "peak_tensile_stress", "joint_stiffness", "compressive_strength", "youngs_modulus"), math.nan)
+		if "failed" in result:
+			return dict.fromkeys((
+				"intercept", "slope", "middle", "residual", "peak_tensile_stress", "joint_stiffness", "compressive_strength", "youngs_modulus"
+			), math.nan)
 	means = [{name: sum(result["measures"][name] for result in case) / len(case) for name in case[0]["measures"]} for case in found]
 	if experiment != "shear": return means[0]
 	peaks = [mean["peak_shear_stress"] for mean in means]
@@ -301,7 +384,10 @@ def evaluate(jobs, model, experiment, parameters, seeds):
 
 def codeOf(model):
 	"""What a calibration depends on besides its Fit: YADE and the code of the runs, whatever its comments."""
-	parts = [house / "scripts" / ("polyhedra.py" if model == "polyhedra" else "spheres.py"), *(house / "py" / "yadeblocks" / f"{name}.py" for name in ("packing", "loading", "curves"))]
+	parts = [
+		house / "scripts" / ("polyhedra.py" if model == "polyhedra" else "spheres.py"),
+		*(house / "py" / "yadeblocks" / f"{name}.py" for name in ("packing", "loading", "curves"))
+	]
 	return study.fingerprint((), yadeVersion(), *map(study.meaning, parts))[:16]
 
 
@@ -312,8 +398,14 @@ def staleCalibrations(experiment):
 		entry = known.get(f"{model} {experiment}")
 		if not entry or p.model not in ("all", model): continue
 		fit = fits(model, experiment, known)
-		reasons = calibration.changes(entry, {"targets": fit.targets, "packings": list(fit.seeds), "code": codeOf(model), "parameters": fit.parameters(entry["moved"]) if "moved" in entry else None})
-		if reasons: yield f"Stale: {model} was calibrated with other {', '.join(reasons)}; mode=calibrate experiment={experiment} model={model} does it again."
+		reasons = calibration.changes(
+			entry, {
+				"targets": fit.targets, "packings": list(fit.seeds), "code": codeOf(model),
+				"parameters": fit.parameters(entry["moved"]) if "moved" in entry else None
+			}
+		)
+		if reasons:
+			yield f"Stale: {model} was calibrated with other {', '.join(reasons)}; mode=calibrate experiment={experiment} model={model} does it again."
 
 
 def calibrateAll(jobs):
@@ -323,32 +415,45 @@ def calibrateAll(jobs):
 		for model in [model for model in modelsOf[experiment] if p.model in ("all", model)]:
 			fit, before = fits(model, experiment, known), known.get(f"{model} {experiment}", {})
 			start = before.get("moved", fit.start) # to go on is shorter than to begin again
-			found = calibration.calibrate(lambda q: evaluate(jobs, model, experiment, fit.parameters(_short(q)), fit.seeds), start, fit.targets, fit.governs, tolerance=0.03, rounds=4)
+			found = calibration.calibrate(
+				lambda q: evaluate(jobs, model, experiment, fit.parameters(_short(q)), fit.seeds), start, fit.targets, fit.governs,
+				tolerance=0.03, rounds=4
+			)
 			runs = found.rounds * len(fit.seeds) * (len(sigmas) if experiment == "shear" else 1) + before.get("runs", 0)
 			known[f"{model} {experiment}"] = {
-				"parameters": fit.parameters(_short(found.parameters)), "moved": _short(found.parameters), "targets": fit.targets, "reached": {name: round(value, 4) for name, value in found.measured.items()},
-				"rounds": found.rounds + before.get("rounds", 0), "runs": runs, "packings": list(fit.seeds), "code": codeOf(model)}
+				"parameters": fit.parameters(_short(found.parameters)), "moved": _short(found.parameters), "targets": fit.targets, "reached": {
+					name: round(value, 4) for name, value in found.measured.items()
+				}, "rounds": found.rounds + before.get("rounds", 0), "runs": runs, "packings": list(fit.seeds), "code": codeOf(model)
+			}
 			path.write_text(json.dumps(known, indent=1) + "\n")
 			print(f"{model} {experiment}: {runs} runs, reached", known[f"{model} {experiment}"]["reached"], "for", fit.targets, flush=True)
 
 
 # ---- running
 
-def interrupt(*_): raise KeyboardInterrupt
+
+def interrupt(*_):
+	raise KeyboardInterrupt
+
+
 signal.signal(signal.SIGTERM, interrupt)
 signal.signal(signal.SIGINT, interrupt) # also where the shell has it ignored
 plugin = os.environ.get("YADEBLOCKS_PLUGIN", house / "build" / "libyadeblocks.so")
-jobs = Jobs(house, house / p.out, plugin, pluginFree=("spheres",), limit=p.limit, parallel=p.jobs, retry=p.retry)
+jobs = Jobs(house, house / p.out, plugin, pluginFree=("spheres", ), limit=p.limit, parallel=p.jobs, retry=p.retry)
 everything = {} if p.mode == "calibrate" else {
-	experiment: [point for point in points(p.mode, experiment) if p.model in ("all", point.model)] for experiment in experiments}
-if p.mode == "calibrate" and not any(p.model in ("all", *modelsOf[experiment]) for experiment in experiments) or p.mode != "calibrate" and not any(everything.values()):
+	experiment: [point for point in points(p.mode, experiment) if p.model in ("all", point.model)] for experiment in experiments
+}
+if p.mode == "calibrate" and not any(p.model in ("all", *modelsOf[experiment])
+					for experiment in experiments) or p.mode != "calibrate" and not any(everything.values()):
 	sys.exit(f"benchmark: model={p.model} has nothing to {'calibrate' if p.mode == 'calibrate' else 'run'} with experiment={p.experiment}")
 stopped = False
 try:
 	if p.mode == "calibrate":
 		calibrateAll(jobs)
 		sys.exit()
-	jobs.do([Job(point.script, point.settings, seed) for seed in range(1, p.seeds + 1) for all in everything.values() for point in all if seed in point.seeds]) # seed by seed, so that an early end leaves all points
+	jobs.do([
+		Job(point.script, point.settings, seed) for seed in range(1, p.seeds + 1) for all in everything.values() for point in all if seed in point.seeds
+	]) # seed by seed, so that an early end leaves all points
 except KeyboardInterrupt:
 	print("interrupted: what is complete is kept; the same command continues", file=sys.stderr)
 	stopped = True

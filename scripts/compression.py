@@ -36,12 +36,15 @@ velocity = 0.01e-3 # [m/s]
 
 common = scenario.commonParameters(sizeMeaning='edge', lloyd=3, steps=30000, alpha=0.2)
 del common['size']
-p = scenario.parameters(
-	{**common, 'unitSize': 0.01, 'mortarSize': 0.003, 'residualFriction': 'zero', 'units': 'voronoi', 'width': 0.285, 'stroke': 3.6e-3, 'jump': True, 'servo': False, 'merge': 0.1, 'halfRate': False, 'vtk': True},
-	{'unitSize': scenario.Rule(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick'),
-	 'mortarSize': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than a mortar joint'),
-	 'residualFriction': ('zero', 'kept'), 'units': ('voronoi', 'plain'), 'width': scenario.positive, 'stroke': scenario.positive,
-	 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')})
+p = scenario.parameters({
+	**common, 'unitSize': 0.01, 'mortarSize': 0.003, 'residualFriction': 'zero', 'units': 'voronoi', 'width': 0.285, 'stroke': 3.6e-3, 'jump': True,
+	'servo': False, 'merge': 0.1, 'halfRate': False, 'vtk': True
+}, {
+	'unitSize': scenario.Rule(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick'),
+	'mortarSize': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than a mortar joint'), 'residualFriction': ('zero', 'kept'),
+	'units': ('voronoi', 'plain'), 'width': scenario.positive, 'stroke': scenario.positive,
+	'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')
+})
 if p.residualFriction == 'zero':
 	mortarJoint['frictionAngleResidual'] = brickJoint['frictionAngleResidual'] = 0
 area = p.width * thickness
@@ -81,8 +84,10 @@ def crush(seed, steps, label):
 	def record():
 		stress = -model.groupForce('platen') / area
 		displacement = model.position[:, 0] - model.reference[:, 0]
-		history.append((-model.groupTravelled('platen') / height, stress, (displacement[right].mean() - displacement[left].mean()) / p.width,
-			cracks.look(), model.unbalancedRatio(floor=floor)))
+		history.append((
+			-model.groupTravelled('platen') / height, stress, (displacement[right].mean() - displacement[left].mean()) / p.width, cracks.look(),
+			model.unbalancedRatio(floor=floor)
+		))
 		if stress > stop.peak: atPeak.update(cracks.counts())
 		progress(int(-steps * model.groupTravelled('platen') / p.stroke))
 		stop(-model.groupTravelled('platen'), stress, history[-1][3])
@@ -92,11 +97,11 @@ def crush(seed, steps, label):
 		BlockContacts(),                                           # broken joints may slide on, part and meet again
 		InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0),   # woken where something moved far enough
 		InteractionLoop([Ig2_Block_Block_BlockGeom()],            # opening and slip
-		                [Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
-		                        JointMat(material1='unit', material2='unit', **brickJoint),
-		                        JointMat(material1='mortar', material2='mortar', **mortarJoint),
-		                        JointMat(material1='unit', material2='mortar', **mortarJoint)])],
-		                [Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
+		[Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
+		JointMat(material1='unit', material2='unit', **brickJoint),
+		JointMat(material1='mortar', material2='mortar', **mortarJoint),
+		JointMat(material1='unit', material2='mortar', **mortarJoint)])],
+		[Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
 		BlockTimeStepper(safety=p.safety),                         # scaled masses
 		BlockForces(),                                             # zones and joints, gathered node by node
 		BlockIntegrator(damping=p.damping, alpha=p.alpha)]         # motion
@@ -149,6 +154,8 @@ for seed in p.seedList:
 		run.quality(half_rate_change=slow / stress[peak] - 1)
 
 results.write()
-pictures.drawCurve(p.folder / 'curve.png', results.curves, 'strain_permille', 'stress_MPa', labels=('strain [‰]', 'compressive stress [N/mm²]'),
-	title='Prism in compression', references=[pictures.Reference('strength, Oliveira 2003', 27.5)])
+pictures.drawCurve(
+	p.folder / 'curve.png', results.curves, 'strain_permille', 'stress_MPa', labels=('strain [‰]', 'compressive stress [N/mm²]'),
+	title='Prism in compression', references=[pictures.Reference('strength, Oliveira 2003', 27.5)]
+)
 scenario.waitIfBatch()

@@ -30,11 +30,14 @@ experiments = { # width, stroke, densities of brick and mortar, size and what it
 	'shear': dict(width=0.2, stroke=1e-3, densities=(1900, 3250), size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, merge=0.1, steps=8000, kn=400e9, tension=1.5e6, cohesion=3e6, friction=45.0)}
 brickHeight, mortarHeight, thickness, unitSize = 0.05, 0.015, 0.05, 8e-3
 
-p = scenario.parameters(
-	{'seed': 1, 'seeds': 1, 'threads': 1, 'tag': '', 'experiment': 'tension', 'steps': 0, 'alpha': 0.4, 'sigma': 0.5e6, 'pressSteps': 2000, 'approach': 0.25, 'safety': 0.8,
-	 'kn': 0.0, 'ks': 0.0, 'unitStiffness': 4.0, 'tension': 0.0, 'cohesion': 0.0, 'friction': 0.0},
-	{'experiment': tuple(experiments), 'steps': scenario.notNegative, 'sigma': scenario.notNegative, 'pressSteps': scenario.atLeastOne, 'approach': scenario.Rule(lambda f: 0 < f <= 1, 'must lie in (0, 1]'),
-	 'safety': scenario.Rule(lambda f: 0 < f < 1, 'must lie in (0, 1)'), 'unitStiffness': scenario.positive, **dict.fromkeys(('kn', 'ks', 'tension', 'cohesion', 'friction'), scenario.notNegative)})
+p = scenario.parameters({
+	'seed': 1, 'seeds': 1, 'threads': 1, 'tag': '', 'experiment': 'tension', 'steps': 0, 'alpha': 0.4, 'sigma': 0.5e6, 'pressSteps': 2000, 'approach': 0.25,
+	'safety': 0.8, 'kn': 0.0, 'ks': 0.0, 'unitStiffness': 4.0, 'tension': 0.0, 'cohesion': 0.0, 'friction': 0.0
+}, {
+	'experiment': tuple(experiments), 'steps': scenario.notNegative, 'sigma': scenario.notNegative, 'pressSteps': scenario.atLeastOne,
+	'approach': scenario.Rule(lambda f: 0 < f <= 1, 'must lie in (0, 1]'), 'safety': scenario.Rule(lambda f: 0 < f < 1, 'must lie in (0, 1)'),
+	'unitStiffness': scenario.positive, **dict.fromkeys(('kn', 'ks', 'tension', 'cohesion', 'friction'), scenario.notNegative)
+})
 specimen = experiments[p.experiment]
 for key in ('steps', 'kn', 'tension', 'cohesion', 'friction'): # 0: of the experiment
 	if not getattr(p, key): setattr(p, key, specimen[key])
@@ -45,18 +48,23 @@ area, low, high = specimen['width'] * thickness, brickHeight, brickHeight + mort
 def cells(seed):
 	"""The couplet's cells, never inserted."""
 	O.reset()
-	for label, density in zip(('unit', 'mortar'), specimen['densities']): O.materials.append(BlockMat(label=label, density=density))
+	for label, density in zip(('unit', 'mortar'), specimen['densities']):
+		O.materials.append(BlockMat(label=label, density=density))
 	model = BlockModel(thickness=thickness)
-	model.addVoronoi(rectangle(0, low, specimen['width'], high), 'mortar', size=specimen['size'], sizeMeaning=specimen['sizeMeaning'], lloyd=specimen['lloyd'], seed=seed, mergeFraction=specimen['merge'], zoning='corners')
+	model.addVoronoi(
+		rectangle(0, low, specimen['width'], high), 'mortar', size=specimen['size'], sizeMeaning=specimen['sizeMeaning'], lloyd=specimen['lloyd'],
+		seed=seed, mergeFraction=specimen['merge'], zoning='corners'
+	)
 	for number, y in enumerate((0, high)):
-		model.addVoronoi(rectangle(0, y, specimen['width'], y + brickHeight), 'unit', size=unitSize, lloyd=3, seed=1000 * seed + number, zoning='corners')
+		model.addVoronoi(
+			rectangle(0, y, specimen['width'], y + brickHeight), 'unit', size=unitSize, lloyd=3, seed=1000 * seed + number, zoning='corners'
+		)
 	model.bond()
 	return model
 
 
 class Specimen:
 	"""Polyhedra in the scene, a bond for every pair of cells that share edges."""
-
 	def __init__(self, seed):
 		model = cells(seed)
 		self.unit = np.array(model.materialLabels)[model.blockMaterial] == 'unit'
@@ -64,9 +72,14 @@ class Specimen:
 		pairs, which = np.unique(np.asarray(model.segmentBlocks), axis=0, return_inverse=True)
 		areas = np.bincount(which.ravel(), np.asarray(model.segmentArea) * 2)
 		O.reset()
-		made = [MortarMat(label=label, density=density, young=1, poisson=0.5, frictionAngle=radians(p.friction), tensileStrength=p.tension, cohesion=p.cohesion, compressiveStrength=1e12, ellAspect=1)
-			for label, density in zip(('unit', 'mortar'), specimen['densities'])]
-		for mat in made: O.materials.append(mat)
+		made = [
+			MortarMat(
+				label=label, density=density, young=1, poisson=0.5, frictionAngle=radians(p.friction), tensileStrength=p.tension,
+				cohesion=p.cohesion, compressiveStrength=1e12, ellAspect=1
+			) for label, density in zip(('unit', 'mortar'), specimen['densities'])
+		]
+		for mat in made:
+			O.materials.append(mat)
 		from yade import polyhedra_utils
 		for outline, unit in zip(outlines, self.unit):
 			corners = [(x, y, z) for x, y in outline for z in (-thickness / 2, thickness / 2)]
@@ -79,15 +92,18 @@ class Specimen:
 		self.bottom, self.top = ([i for i in range(len(y)) if abs(y[i] - plane).min() < 1e-9] for plane in (0, low + high))
 		across = [(a, b) if self.centres[a, 1] < self.centres[b, 1] else (b, a) for a, b in pairs if self.unit[a] != self.unit[b]]
 		beds = np.array(across)
-		self.below, self.above = np.unique(beds[self.unit[beds[:, 0]], 0]).tolist(), np.unique(beds[self.unit[beds[:, 1]], 1]).tolist() # bricks' cells along the bed planes
+		self.below, self.above = np.unique(beds[self.unit[beds[:, 0]],
+							0]).tolist(), np.unique(beds[self.unit[beds[:, 1]], 1]).tolist() # bricks' cells along the bed planes
 
 	def bond(self, geometry, dt):
 		"""A bond for every pair, free of force as it is. YADE finds a pair only where the polyhedra, blown up, overlap."""
 		self.lost, along, around = 0, np.zeros(len(O.bodies)), np.zeros(len(O.bodies))
 		for (a, b), area in zip(self.pairs.tolist(), self.areas):
 			for geometry.interactionDetectionFactor in (1.02, 1.05, 1.1, 1.2, 1.5, 2, 3):
-				try: made = utils.createInteraction(a, b)
-				except RuntimeError: continue
+				try:
+					made = utils.createInteraction(a, b)
+				except RuntimeError:
+					continue
 				break
 			else:
 				self.lost += 1
@@ -103,8 +119,10 @@ class Specimen:
 			for body, reach in ((a, made.geom.refR1), (b, made.geom.refR2)):
 				along[body] += made.phys.kn
 				around[body] += made.phys.ks * reach**2
-		for body, k, turning in zip(O.bodies, along, around): # masses as they may be scaled in quasi-static loading; YADE's own scaling knows spheres only
-			body.state.mass, body.state.inertia = k * (dt / p.safety)**2, 3 * (turning * (dt / p.safety)**2,)
+		for body, k, turning in zip(
+			O.bodies, along, around
+		): # masses as they may be scaled in quasi-static loading; YADE's own scaling knows spheres only
+			body.state.mass, body.state.inertia = k * (dt / p.safety)**2, 3 * (turning * (dt / p.safety)**2, )
 
 	def movement(self, axis):
 		"""Of the upper brick's lowest cells relative to the lower brick's highest ones [m]."""
@@ -117,8 +135,10 @@ class Specimen:
 
 	def hold(self):
 		"""What the machine holds; in shear the top row is a stiff platen that may rise."""
-		for body in O.bodies: body.state.blockedDOFs = 'zXY'
-		for row in self.bottom + self.top: O.bodies[row].state.blockedDOFs = 'xyzXYZ'
+		for body in O.bodies:
+			body.state.blockedDOFs = 'zXY'
+		for row in self.bottom + self.top:
+			O.bodies[row].state.blockedDOFs = 'xyzXYZ'
 		if p.experiment == 'shear':
 			self.platen = O.bodies.clump(self.top)
 			O.bodies[self.platen].state.blockedDOFs = 'xzXYZ'
@@ -132,7 +152,8 @@ def run(seed):
 	O.engines = [
 		ForceResetter(),
 		InteractionLoop([geometry], [Ip2_MortarMat_MortarMat_MortarPhys(cohesiveThresholdIter=2)], [Law2_ScGeom_MortarPhys_Lourenco()]),
-		NewtonIntegrator(damping=p.alpha)]
+		NewtonIntegrator(damping=p.alpha)
+	]
 	O.dt = dt
 	made.bond(geometry, dt)
 	axis, press = (0, p.pressSteps) if p.experiment == 'shear' else (1, 0)
@@ -159,7 +180,10 @@ def run(seed):
 		progress(travelled() / specimen['stroke'] * p.steps)
 
 	globals().update(load=load, record=record)
-	O.engines += [PyRunner(command='load()', iterPeriod=max(1, p.steps // 250)), PyRunner(command='record()', iterPeriod=max(1, p.steps // (800 if p.experiment == 'tension' else 400)))]
+	O.engines += [
+		PyRunner(command='load()', iterPeriod=max(1, p.steps // 250)),
+		PyRunner(command='record()', iterPeriod=max(1, p.steps // (800 if p.experiment == 'tension' else 400)))
+	]
 	load()
 	stop = loading.Stop(drop=0.5, displacement=specimen['stroke'])
 	with Progress(p.steps, lambda: 'stress %.3f MPa' % (history[-1][1] / 1e6), label='seed %d' % seed) as progress:

@@ -25,8 +25,10 @@ from yadeblocks import scenario
 from yadeblocks.instructions import Feature, Marks, readProfiles, sourceLines
 from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 
-p = scenario.parameters({'part': '', 'scene': 'tension', 'quick': True},
-	{'part': scenario.Rule(lambda part: part in ('states', 'times', 'counts', 'threads', 'table'), 'is set by scripts/price.sh, which starts this script'), 'scene': ('tension', 'compression', 'crushed')})
+p = scenario.parameters({'part': '', 'scene': 'tension', 'quick': True}, {
+	'part': scenario.Rule(lambda part: part in ('states', 'times', 'counts', 'threads', 'table'), 'is set by scripts/price.sh, which starts this script'),
+	'scene': ('tension', 'compression', 'crushed')
+})
 folder = Path('out/price')
 house = Path(yadeblocks.__file__).resolve().parents[2] # __file__ is YADE itself
 window = 100 if p.quick else 400 # steps
@@ -44,13 +46,19 @@ unitJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), frictionAngleRe
 def engines(unitToUnit, mortarToOthers, alpha):
 	"""The bare time step: no feature but large displacements and local damping."""
 	return [
-		InteractionLoop([Ig2_Block_Block_BlockGeom()], [Ip2_BlockMat_BlockMat_JointPhys(joints=[
-			JointMat(material1='unit', material2='unit', **unitToUnit),
-			JointMat(material1='mortar', material2='mortar', **mortarToOthers),
-			JointMat(material1='unit', material2='mortar', **mortarToOthers)])], [Law2_BlockGeom_JointPhys_MohrCoulomb()]),
+		InteractionLoop([Ig2_Block_Block_BlockGeom()], [
+			Ip2_BlockMat_BlockMat_JointPhys(
+				joints=[
+					JointMat(material1='unit', material2='unit', **unitToUnit),
+					JointMat(material1='mortar', material2='mortar', **mortarToOthers),
+					JointMat(material1='unit', material2='mortar', **mortarToOthers)
+				]
+			)
+		], [Law2_BlockGeom_JointPhys_MohrCoulomb()]),
 		BlockTimeStepper(),
 		BlockForces(),
-		BlockIntegrator(alpha=alpha, watchPeriod=0)]
+		BlockIntegrator(alpha=alpha, watchPeriod=0)
+	]
 
 
 def addGeneralContact():
@@ -119,13 +127,16 @@ def states():
 
 def save(name, model):
 	touching = [len(i.geom.ends) // 2 for i in O.interactions if i.geom.contact >= 0]
-	sizes = dict(blocks=model.blockCount, nodes=model.nodeCount, zones=model.zoneCount, points=model.contactCount, pairs=len(list(O.interactions)),
-		broken=int(np.count_nonzero(np.isin(model.pointStatus, (1, 2)))), freeContacts=len(touching), touchingEdges=sum(touching))
+	sizes = dict(
+		blocks=model.blockCount, nodes=model.nodeCount, zones=model.zoneCount, points=model.contactCount, pairs=len(list(O.interactions)),
+		broken=int(np.count_nonzero(np.isin(model.pointStatus, (1, 2)))), freeContacts=len(touching), touchingEdges=sum(touching)
+	)
 	(folder / (name + '.sizes.json')).write_text(json.dumps(sizes))
 	O.save(str(folder / (name + '.yade')))
 
 
 # ---- the features
+
 
 def engine(kind):
 	return next(e for e in O.engines if type(e).__name__ == kind)
@@ -159,7 +170,6 @@ def addExport(model):
 
 class Row:
 	"""A feature: its name, how it is switched on, and how often it works (1: as often as in the window)."""
-
 	def __init__(self, name, switch, share=1):
 		self.name, self.switch, self.share = name, switch, share
 
@@ -167,7 +177,7 @@ class Row:
 rows = [
 	Row('general contact (collider + BlockContacts)', lambda model: addGeneralContact()),
 	Row('small strain instead of large displacement', lambda model: setattr(model, 'smallStrain', True)),
-	Row('dilation', lambda model: setJoints(dilationAngle=radians(4))),
+	Row('dilation', lambda model: setJoints(frictionAngleResidual=radians(4), dilationAngle=radians(4))), # it may not exceed it
 	Row('residual friction', lambda model: setJoints(frictionAngleResidual=radians(30))),
 	Row('gravity (dead loads)', lambda model: model.gravity((0, -9.81))),
 	Row('adaptive damping instead of local', lambda model: setattr(engine('BlockIntegrator'), 'damping', 'adaptive')),
@@ -176,7 +186,8 @@ rows = [
 	Row('energy accounts (O.trackEnergy)', lambda model: setattr(O, 'trackEnergy', True)),
 	Row('crack recorder, every step', lambda model: addAfterForces(BlockCrackRecorder())),
 	Row('gauge in a PyRunner, every %d steps' % recordEvery, addGauge),
-	Row('ParaView files, every %d steps' % writeEvery, addExport, window / writeEvery)]
+	Row('ParaView files, every %d steps' % writeEvery, addExport, window / writeEvery)
+]
 if 'BlockServo' in globals():
 	rows.append(Row('servo', lambda model: addAfterForces(BlockServo(groups=[model.groups[-1]], floor=1))))
 if p.scene == 'crushed': rows = [row for row in rows if 'general contact' not in row.name]
@@ -209,7 +220,8 @@ def counts():
 	marks = Marks('build/price/libmarks.so')
 	for name, switch in [('bare', None), ('bare again', None)] + [(row.name, row.switch) for row in rows]:
 		start(switch)
-		with marks.counting(name): O.run(window, True)
+		with marks.counting(name):
+			O.run(window, True)
 
 
 def times():
@@ -242,6 +254,7 @@ def threads():
 
 # ---- the table
 
+
 def kilo(instructions):
 	return '%.1f' % (instructions / 1e3)
 
@@ -255,17 +268,25 @@ def report():
 		once = float(np.median(turns['bare']))
 		bare = profiles['bare']
 		off = bare.total / window
-		lines += ['', '## %s' % scene, '', ', '.join('%d %s' % (value, name) for name, value in sizes.items()) + '.', '',
-			'Bare: %s thousand instructions, %.0f µs a step; counted again: %+.4f %%.' % (kilo(off), once / 1e3, 100 * (profiles['bare again'].total / bare.total - 1)), '',
-			'| feature | instructions a step, on (10³) | more than bare | | µs more |', '|---|---:|---:|---:|---:|']
+		lines += [
+			'',
+			'## %s' % scene, '', ', '.join('%d %s' % (value, name) for name, value in sizes.items()) + '.', '',
+			'Bare: %s thousand instructions, %.0f µs a step; counted again: %+.4f %%.' %
+			(kilo(off), once / 1e3, 100 * (profiles['bare again'].total / bare.total - 1)), '',
+			'| feature | instructions a step, on (10³) | more than bare | | µs more |', '|---|---:|---:|---:|---:|'
+		]
 		for row in rows:
 			if row.name not in profiles: continue
-			more, slower = row.share * (profiles[row.name].total / window - off), row.share * float(np.median(np.subtract(turns[row.name], turns['bare'])))
+			more, slower = row.share * (profiles[row.name].total / window -
+							off), row.share * float(np.median(np.subtract(turns[row.name], turns['bare'])))
 			lines.append('| %s | %s | %+.1f | %+.1f %% | %+.1f |' % (row.name, kilo(off + more), more / 1e3, 100 * more / off, slower / 1e3))
 			table.append((scene, row.name, off, off + more, once, once + slower))
 		if (folder / (scene + '.threads.json')).exists():
 			clock = read('threads')
-			lines.append('| two threads instead of one (wall-clock) | | | %+.0f %% | %+.1f |' % (100 * (clock['2'] / clock['1'] - 1), (clock['2'] - clock['1']) / 1e3))
+			lines.append(
+				'| two threads instead of one (wall-clock) | | | %+.0f %% | %+.1f |' %
+				(100 * (clock['2'] / clock['1'] - 1), (clock['2'] - clock['1']) / 1e3)
+			)
 		if scene != 'crushed':
 			lines += ['', '| switched off | instructions a step | share of the bare step |', '|---|---:|---:|']
 			for name, feature in features.items():

@@ -30,18 +30,26 @@ from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 length, brickHeight, thickness, mortarHeight = 0.2, 0.05, 0.05, 0.015 # [m]
 brick = dict(young=16.7e9, poisson=0.2, density=1900) # Table 4
 mortar = dict(young=2.974e9, poisson=0.2, density=3250)
-jointDefaults = {'kn': 400e9, 'ks': 200e9, 'cohesion': 3e6, 'tension': 1.5e6, 'friction': 45.0, 'residualFriction': 36.0} # Table 5, all joints; angles in degrees
-brickJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6) # with units=voronoi; Table 9, since none is given for these bricks
+jointDefaults = {
+	'kn': 400e9, 'ks': 200e9, 'cohesion': 3e6, 'tension': 1.5e6, 'friction': 45.0, 'residualFriction': 36.0
+} # Table 5, all joints; angles in degrees
+brickJoint = dict(
+	kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6
+) # with units=voronoi; Table 9, since none is given for these bricks
 velocity = 0.2e-3 # [m/s]
 pressSteps = 2000
 
-p = scenario.parameters(
-	{**scenario.commonParameters(size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2), 'sigma': 0.5e6, 'stroke': 1e-3, 'approach': 0.2, 'jump': True, 'servo': False, 'units': 'plain', 'brickZone': 8e-3,
-	 'merge': 0.1, **jointDefaults, 'halfRate': False, 'vtk': True},
-	{'sigma': scenario.notNegative, 'stroke': scenario.positive, 'approach': scenario.Rule(lambda f: 0 < f <= 1, 'must lie in (0, 1]'), 'units': ('plain', 'voronoi'), 'brickZone': scenario.positive,
-	 'size': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer'),
-	 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)'), 'kn': scenario.positive, 'ks': scenario.positive, 'cohesion': scenario.notNegative, 'tension': scenario.notNegative,
-	 **dict.fromkeys(('friction', 'residualFriction'), scenario.Rule(lambda angle: 0 <= angle < 90, 'must lie in [0, 90) degrees'))})
+p = scenario.parameters({
+	**scenario.commonParameters(size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2), 'sigma': 0.5e6, 'stroke': 1e-3, 'approach': 0.2,
+	'jump': True, 'servo': False, 'units': 'plain', 'brickZone': 8e-3, 'merge': 0.1, **jointDefaults, 'halfRate': False, 'vtk': True
+}, {
+	'sigma': scenario.notNegative, 'stroke': scenario.positive, 'approach': scenario.Rule(lambda f: 0 < f <= 1,
+												'must lie in (0, 1]'), 'units': ('plain', 'voronoi'),
+	'brickZone': scenario.positive, 'size': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer'),
+	'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)'), 'kn': scenario.positive, 'ks': scenario.positive, 'cohesion': scenario.notNegative,
+	'tension': scenario.notNegative, **dict.fromkeys(('friction', 'residualFriction'),
+								scenario.Rule(lambda angle: 0 <= angle < 90, 'must lie in [0, 90) degrees'))
+})
 joint = dict(kn=p.kn, ks=p.ks, frictionAngle=radians(p.friction), frictionAngleResidual=radians(p.residualFriction), cohesion=p.cohesion, tension=p.tension)
 area, low, high = length * thickness, brickHeight, brickHeight + mortarHeight
 peakExpected, residualExpected = 0.87 + 1.01 * p.sigma / 1e6, 0.73 * p.sigma / 1e6
@@ -89,10 +97,10 @@ def shear(seed, steps, label):
 		BlockContacts(),                                           # broken joints may slide on, part and meet again
 		InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0),   # woken where something moved far enough
 		InteractionLoop([Ig2_Block_Block_BlockGeom()],            # opening and slip
-		                [Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
-		                        JointMat(material1='mortar', material2='mortar', **joint),
-		                        JointMat(material1='unit', material2='mortar', **joint)] + withinBricks)],
-		                [Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
+		[Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
+		JointMat(material1='mortar', material2='mortar', **joint),
+		JointMat(material1='unit', material2='mortar', **joint)] + withinBricks)],
+		[Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
 		BlockTimeStepper(safety=p.safety),                         # scaled masses
 		BlockForces(),                                             # zones and joints, gathered node by node
 		BlockIntegrator(damping=p.damping, alpha=p.alpha)]         # motion
@@ -124,7 +132,10 @@ for seed in p.seedList:
 			model, (displacement, stress, uplift, broken, unbalanced), cracks = shear(seed, p.steps, 'seed %d' % seed)
 		peak = stress.argmax()
 		run.add('peak_shear_stress', 'MPa', stress[peak] / 1e6, peakExpected, 'Van der Pluijm 1993: 0.87 + 1.01 sigma')
-		run.add('residual_shear_stress', 'MPa', stress[displacement > 0.75 * displacement[-1]].mean() / 1e6, residualExpected or None, 'Van der Pluijm 1993: 0.73 sigma')
+		run.add(
+			'residual_shear_stress', 'MPa', stress[displacement > 0.75 * displacement[-1]].mean() / 1e6, residualExpected or None,
+			'Van der Pluijm 1993: 0.73 sigma'
+		)
 		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
 		run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
 		run.add('first_crack_place', 'mm', cracks.first[0][0] * 1e3) # from the left end
@@ -142,7 +153,10 @@ for seed in p.seedList:
 		run.quality(half_rate_change=slow / stress[peak] - 1)
 
 results.write()
-pictures.drawCurve(p.folder / 'curve.png', results.curves, 'displacement_mm', 'stress_MPa',
-	labels=('slip across the mortar layer [mm]', 'shear stress [N/mm²]'), title='Couplet in shear, precompression %g N/mm²' % (p.sigma / 1e6),
-	references=[pictures.Reference('peak, Van der Pluijm 1993', peakExpected), pictures.Reference('residual, Van der Pluijm 1993', residualExpected)])
+pictures.drawCurve(
+	p.folder / 'curve.png', results.curves, 'displacement_mm', 'stress_MPa', labels=('slip across the mortar layer [mm]', 'shear stress [N/mm²]'),
+	title='Couplet in shear, precompression %g N/mm²' % (p.sigma / 1e6),
+	references=[pictures.Reference('peak, Van der Pluijm 1993', peakExpected),
+			pictures.Reference('residual, Van der Pluijm 1993', residualExpected)]
+)
 scenario.waitIfBatch()

@@ -44,12 +44,15 @@ micro = { # what calibration moves; young: of the bond, poisson: tangential by n
 	'ductility': scenario.positive}
 
 unknown = {key: 0.0 for key in micro}
-p = scenario.parameters(
-	{'seed': 1, 'seeds': 1, 'threads': 1, 'tag': '', 'experiment': 'tension', 'model': 'jcfpm', 'radius': 0.0, 'unitRadius': 0.0, 'steps': 0, 'alpha': 0.4, 'sigma': 0.5e6,
-	 'pressSteps': 2000, 'approach': 0.25, 'reach': 1.3, 'safety': 0.8, **unknown},
-	{'experiment': tuple(experiments), 'model': models, 'radius': scenario.notNegative, 'unitRadius': scenario.notNegative, 'steps': scenario.notNegative, 'sigma': scenario.notNegative, 'pressSteps': scenario.atLeastOne, 'approach': scenario.Rule(lambda f: 0 < f <= 1, 'must lie in (0, 1]'),
-	 'reach': scenario.Rule(lambda f: 1 <= f <= 2, 'must lie in [1, 2]'), 'safety': scenario.Rule(lambda f: 0 < f < 1, 'must lie in (0, 1)'),
-	 **{key: scenario.notNegative for key in micro}})
+p = scenario.parameters({
+	'seed': 1, 'seeds': 1, 'threads': 1, 'tag': '', 'experiment': 'tension', 'model': 'jcfpm', 'radius': 0.0, 'unitRadius': 0.0, 'steps': 0, 'alpha': 0.4,
+	'sigma': 0.5e6, 'pressSteps': 2000, 'approach': 0.25, 'reach': 1.3, 'safety': 0.8, **unknown
+}, {
+	'experiment': tuple(experiments), 'model': models, 'radius': scenario.notNegative, 'unitRadius': scenario.notNegative, 'steps': scenario.notNegative,
+	'sigma': scenario.notNegative, 'pressSteps': scenario.atLeastOne, 'approach': scenario.Rule(lambda f: 0 < f <= 1, 'must lie in (0, 1]'),
+	'reach': scenario.Rule(lambda f: 1 <= f <= 2, 'must lie in [1, 2]'), 'safety': scenario.Rule(lambda f: 0 < f < 1, 'must lie in (0, 1)'),
+	**{key: scenario.notNegative for key in micro}
+})
 specimen = experiments[p.experiment]
 p.radius, p.steps = p.radius or specimen['radius'], p.steps or specimen['steps']
 p.unitRadius = p.unitRadius or p.radius * (specimen['coarser'] if p.model != 'lourenco' else 1) # bricks that stay elastic need fewer spheres
@@ -62,24 +65,35 @@ layers = [('mortar', specimen['mortar']) if i % 2 else ('unit', specimen['brick'
 height = sum(thick for _, thick in layers)
 area = width * thickness
 
-
 # ---- materials and laws
+
 
 def materials():
 	"""Of bricks and mortar. Bricks are stronger by unitStrength; where materials meet, the mortar's strength counts (see bond)."""
 	made = {}
-	for label, young, density, factor in (('unit', p.unitYoung, specimen['densities'][0], p.unitStrength), ('mortar', p.mortarYoung, specimen['densities'][1], 1)):
+	for label, young, density, factor in (('unit', p.unitYoung, specimen['densities'][0], p.unitStrength),
+						('mortar', p.mortarYoung, specimen['densities'][1], 1)):
 		elastic = dict(label=label, young=young, poisson=p.poisson, density=density, frictionAngle=radians(p.friction))
 		if p.model in ('jcfpm', 'jcfpmSmooth'):
-			joint = dict(jointNormalStiffness=p.jointStiffness, jointShearStiffness=p.jointStiffness / 2, jointTensileStrength=p.jointTension,
-				jointCohesion=p.jointCohesion, jointFrictionAngle=radians(p.jointFriction)) if p.model == 'jcfpmSmooth' else {}
-			made[label] = JCFpmMat(type=1, tensileStrength=factor * p.tension, cohesion=factor * p.cohesion, residualFrictionAngle=radians(p.residualFriction), **elastic, **joint)
+			joint = dict(
+				jointNormalStiffness=p.jointStiffness, jointShearStiffness=p.jointStiffness /
+				2, jointTensileStrength=p.jointTension, jointCohesion=p.jointCohesion, jointFrictionAngle=radians(p.jointFriction)
+			) if p.model == 'jcfpmSmooth' else {}
+			made[label] = JCFpmMat(
+				type=1, tensileStrength=factor * p.tension, cohesion=factor * p.cohesion, residualFrictionAngle=radians(p.residualFriction),
+				**elastic, **joint
+			)
 		elif p.model == 'cohfrict':
-			made[label] = CohFrictMat(normalCohesion=1e30, shearCohesion=1e30, fragile=True, momentRotationLaw=True, **elastic) # strengths: see bond
+			made[label] = CohFrictMat(
+				normalCohesion=1e30, shearCohesion=1e30, fragile=True, momentRotationLaw=True, **elastic
+			) # strengths: see bond
 		elif p.model == 'cpm':
 			made[label] = CpmMat(sigmaT=factor * p.cohesion, epsCrackOnset=factor * p.tension / young, relDuctility=p.ductility, **elastic)
 		else:
-			made[label] = MortarMat(tensileStrength=factor * p.tension, cohesion=factor * p.cohesion, compressiveStrength=1e3 * factor * p.tension, ellAspect=1, **elastic)
+			made[label] = MortarMat(
+				tensileStrength=factor * p.tension, cohesion=factor * p.cohesion, compressiveStrength=1e3 * factor * p.tension, ellAspect=1,
+				**elastic
+			)
 		O.materials.append(made[label])
 	return made
 
@@ -90,10 +104,12 @@ def functors():
 	reach = 1 if p.model == 'lourenco' else p.reach
 	laws = {
 		'jcfpm': lambda: (Ip2_JCFpmMat_JCFpmMat_JCFpmPhys(cohesiveTresholdIteration=1), Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM()),
-		'jcfpmSmooth': lambda: (Ip2_JCFpmMat_JCFpmMat_JCFpmPhys(cohesiveTresholdIteration=1), Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM(smoothJoint=True)),
-		'cohfrict': lambda: (Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True), Law2_ScGeom6D_CohFrictPhys_CohesionMoment()),
-		'cpm': lambda: (Ip2_CpmMat_CpmMat_CpmPhys(cohesiveThresholdIter=1), Law2_ScGeom_CpmPhys_Cpm(omegaThreshold=0.999)),
-		'lourenco': lambda: (Ip2_MortarMat_MortarMat_MortarPhys(cohesiveThresholdIter=2), Law2_ScGeom_MortarPhys_Lourenco())}
+		'jcfpmSmooth': lambda:
+		(Ip2_JCFpmMat_JCFpmMat_JCFpmPhys(cohesiveTresholdIteration=1), Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM(smoothJoint=True)),
+		'cohfrict': lambda: (Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True), Law2_ScGeom6D_CohFrictPhys_CohesionMoment()), 'cpm': lambda:
+		(Ip2_CpmMat_CpmMat_CpmPhys(cohesiveThresholdIter=1), Law2_ScGeom_CpmPhys_Cpm(omegaThreshold=0.999)), 'lourenco': lambda:
+		(Ip2_MortarMat_MortarMat_MortarPhys(cohesiveThresholdIter=2), Law2_ScGeom_MortarPhys_Lourenco())
+	}
 	return Bo1_Sphere_Aabb(aabbEnlargeFactor=1.001 * reach), geometry(interactionDetectionFactor=1.001 * reach), *laws[p.model]()
 
 
@@ -112,16 +128,18 @@ def bond():
 
 # ---- specimen and loading
 
+
 class Specimen:
 	"""The spheres of a specimen in the scene: layers of bricks and mortar, their lowest and highest rows in the grip of the machine."""
-
 	def __init__(self, seed):
 		O.reset()
 		made, y = materials(), 0
 		centres, radii, labels = [], [], []
 		for i, (label, thick) in enumerate(layers):
 			layer = packing.randomPacking(width, thick, p.radius if label == 'mortar' else p.unitRadius, 100 * seed + i)
-			centres.append(layer[0] + (0, y)); radii.append(layer[1]); labels += [label] * len(layer[1])
+			centres.append(layer[0] + (0, y))
+			radii.append(layer[1])
+			labels += [label] * len(layer[1])
 			y += thick
 		if p.model == 'lourenco': centres, radii, labels = self.touching(seed)
 		self.centres, self.radii, self.labels = np.vstack(centres), np.concatenate(radii), np.array(labels)
@@ -178,14 +196,14 @@ def run(seed):
 	stepper = GlobalStiffnessTimeStepper(dead=True, densityScaling=True, targetDt=dt, timestepSafetyCoefficient=p.safety, timeStepUpdateInterval=100)
 	O.engines = [
 		ForceResetter(),
-		InsertionSortCollider([box], verletDist=0.1 * p.radius),
-		stepper,
-		InteractionLoop([geometry], [properties], [law]),
-		newton]
+		InsertionSortCollider([box], verletDist=0.1 * p.radius), stepper,
+		InteractionLoop([geometry], [properties], [law]), newton
+	]
 	O.dt = dt
 	O.step() # makes the bonds; nothing moves yet
 	bond()
-	for interaction in O.interactions: interaction.phys.normalForce = 1e-12 * interaction.geom.normal # the time stepper passes over bonds without any
+	for interaction in O.interactions:
+		interaction.phys.normalForce = 1e-12 * interaction.geom.normal # the time stepper passes over bonds without any
 	box.aabbEnlargeFactor = geometry.interactionDetectionFactor = 1 # new contacts are those of spheres that touch
 	made.bonds = O.interactions.countReal()
 
@@ -220,7 +238,10 @@ def run(seed):
 		progress(travelled() / specimen['stroke'] * p.steps)
 
 	globals().update(load=load, record=record)
-	O.engines += [PyRunner(command='load()', iterPeriod=max(1, p.steps // 1000)), PyRunner(command='record()', iterPeriod=max(1, p.steps // (1600 if p.experiment == 'tension' else 400)))]
+	O.engines += [
+		PyRunner(command='load()', iterPeriod=max(1, p.steps // 1000)),
+		PyRunner(command='record()', iterPeriod=max(1, p.steps // (1600 if p.experiment == 'tension' else 400)))
+	]
 	load()
 	stop = loading.Stop(drop=None if press else 0.5, displacement=specimen['stroke'])
 	with Progress(p.steps, lambda: 'stress %.3f MPa' % (history[-1][1] / 1e6), label='seed %d' % seed) as progress:
@@ -231,7 +252,8 @@ def run(seed):
 
 def hold(made):
 	"""What the machine holds: tension and shear grip the rows, compression lets them slide sideways; in shear the top row is a stiff platen that may rise."""
-	for sphere in O.bodies: sphere.state.blockedDOFs = 'zXY'
+	for sphere in O.bodies:
+		sphere.state.blockedDOFs = 'zXY'
 	for row in made.bottom + made.top:
 		O.bodies[row].state.blockedDOFs = 'yzXY' if p.experiment == 'compression' else 'xyzXYZ'
 	if p.experiment == 'shear':

@@ -73,7 +73,7 @@ def engines(joints, stepper={}, contact=False, **integrator):
 	"""The list of a time step; without a stepper (None) masses are true and O.dt is the case's."""
 	before = [BlockContacts(), InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0)] if contact else []
 	return before + [InteractionLoop([Ig2_Block_Block_BlockGeom()], [Ip2_BlockMat_BlockMat_JointPhys(joints=joints)], [Law2_BlockGeom_JointPhys_MohrCoulomb()])] \
-		+ ([] if stepper is None else [BlockTimeStepper(**stepper)]) + [BlockForces(), BlockIntegrator(**{'rescueFile': '', **integrator})]
+                              + ([] if stepper is None else [BlockTimeStepper(**stepper)]) + [BlockForces(), BlockIntegrator(**{'rescueFile': '', **integrator})]
 
 
 dynamic = dict(quasiStatic=False) # true masses, O.dt from the stepper
@@ -82,13 +82,13 @@ dynamic = dict(quasiStatic=False) # true masses, O.dt from the stepper
 def kick(model, amplitude, held=()):
 	"""Random displacements of all grid points but those that are held [m]."""
 	shifts = np.random.default_rng(1).uniform(-amplitude, amplitude, model.position.shape)
-	for nodes in held: shifts[nodes] = 0
+	for nodes in held:
+		shifts[nodes] = 0
 	model.position[:] += shifts
 
 
 class Look:
 	"""What a case saw: sentences, whether all was as expected, and the energy balance."""
-
 	def __init__(self):
 		self.sentences, self.passed, self.steps = [], True, 0
 		self.energyError, self.energyLimit = None, 0.01
@@ -115,7 +115,8 @@ class Look:
 			self.balance()
 			steps -= 1
 		for i in range(samples):
-			for _ in range(steps * (i + 1) // samples - steps * i // samples): O.step()
+			for _ in range(steps * (i + 1) // samples - steps * i // samples):
+				O.step()
 			self.balance()
 
 	def balance(self):
@@ -180,6 +181,7 @@ def case(name, expected, slow=False):
 	def enlist(function):
 		cases.append((name, expected, function, slow))
 		return function
+
 	return enlist
 
 
@@ -305,10 +307,12 @@ def safetyCase(look, damping, alpha=0.3):
 		model.insert()
 		kick(model, 1e-7)
 		O.dt, O.engines = dt, engines(joint, stepper, damping=damping, alpha=alpha)
+
 		def run():
 			look.run(1)
 			look.start = sum(energy(e) for e in ('Kinetic', 'Zones', 'Joints')) # what the kick gave
 			look.run(3000)
+
 		found, message = outcome(run)
 		if found != 'silent': return found
 		# U (1 - s^2) of a mode is never more than what there was; s as a share of the true limit
@@ -329,13 +333,18 @@ def safetyCase(look, damping, alpha=0.3):
 	for name, found, fits in (('O.dt', byTrue, lambda s: s <= allowed * bound), ('safety', byStepper, lambda s: s <= allowed)):
 		stable = [s for s, f in zip(safeties, found) if f == 'stable']
 		stopped = [s for s, f in zip(safeties, found) if f in ('refused', 'detected')]
-		look.true(stable == [s for s in safeties if fits(s)] and len(stable) + len(stopped) == len(safeties) and min(stopped) < 1,
-		          '%s: stable %g to %g, refused from %g on' % (name, stable[0], stable[-1], min(stopped)))
+		look.true(
+			stable == [s for s in safeties if fits(s)] and len(stable) + len(stopped) == len(safeties) and min(stopped) < 1,
+			'%s: stable %g to %g, refused from %g on' % (name, stable[0], stable[-1], min(stopped))
+		)
 
 
 for damping, alpha in ('none', 0), ('local', 0.3), ('local', 0.8), ('adaptive', 0):
 
-	@case('safety, damping %s' % damping + (' %g' % alpha if alpha else ''), '0.5 to 1.1 times the limit of power iteration: stable or refused, never silent')
+	@case(
+		'safety, damping %s' % damping + (' %g' % alpha if alpha else ''),
+		'0.5 to 1.1 times the limit of power iteration: stable or refused, never silent'
+	)
 	def safety(look, damping=damping, alpha=alpha):
 		safetyCase(look, damping, alpha or 0.3)
 
@@ -355,7 +364,8 @@ def stiffened(look):
 		look.run(300)
 		before = O.dt
 		look.forget() # stiffening gives energy
-		for i in O.interactions: i.phys.kn *= 1e3
+		for i in O.interactions:
+			i.phys.kn *= 1e3
 		found, message = outcome(lambda: look.run(1000))
 		look.true(found == expected, 'O.dt kept: ' + found if stepper is None else 'O.dt from %.2g to %.2g s' % (before, O.dt))
 
@@ -523,11 +533,13 @@ def press(look, contact, overlaps, kn=young / 2):
 	def load(overlap):
 		for share in np.linspace(0, 1, 21)[1:]: # little by little: a sudden load would press twice as deep
 			model.setTarget('load', -kn * 0.1 * (before + share * (overlap - before)))
-			for _ in range(100): O.step()
+			for _ in range(100):
+				O.step()
 			if overlap != overlaps[-1]: look.balance() # the last one is not to be computed
 
 	for overlap in overlaps:
-		with messages() as text: ends.append(outcome(lambda: load(overlap)))
+		with messages() as text:
+			ends.append(outcome(lambda: load(overlap)))
 		texts += text
 		before = overlap
 	return texts, ends
@@ -535,15 +547,21 @@ def press(look, contact, overlaps, kn=young / 2):
 
 # Squares of 0.1 m, zones of 0.05 m: 10 % is 0.005 m. A free contact of such squares pushes with at most kn x 0.008 m; a greater load
 # drives one through the other.
-for contact, overlaps, expected, stopped in (
-	(False, [0.002, 0.003, 0.0045, 0.0055], 'quiet at 4 % of a zone, one warning with blocks and numbers up to 10 %, refused beyond', 'joints overlap by'),
-	(True, [0.002, 0.003, 0.007, 0.011], 'quiet at 4 % of a zone, one warning with blocks and numbers, refused where contact would be lost', 'has gone into block')):
+for contact, overlaps, expected, stopped in ((
+	False, [0.002, 0.003, 0.0045, 0.0055], 'quiet at 4 % of a zone, one warning with blocks and numbers up to 10 %, refused beyond', 'joints overlap by'
+), (
+	True, [0.002, 0.003, 0.007,
+		0.011], 'quiet at 4 % of a zone, one warning with blocks and numbers, refused where contact would be lost', 'has gone into block'
+)):
 
 	@case('precompression of ' + ('free contacts' if contact else 'joints'), expected)
 	def precompression(look, contact=contact, overlaps=overlaps, stopped=stopped):
 		(quiet, warned, again, _), ends = press(look, contact, overlaps)
 		look.true('overlap' not in quiet and ends[0][0] == 'silent', 'quiet at 4 %')
-		look.true(warned.count('overlap') == 1 and 'blocks 0 and 1' in warned and ends[1][0] == 'silent', 'warned: "%s"' % warned.strip().split(': ', 3)[-1])
+		look.true(
+			warned.count('overlap') == 1 and 'blocks 0 and 1' in warned and ends[1][0] == 'silent',
+			'warned: "%s"' % warned.strip().split(': ', 3)[-1]
+		)
 		look.true('overlap' not in again and ends[2][0] == 'silent', 'only once')
 		look.true(ends[3][0] == 'detected' and stopped in ends[3][1], 'stopped: "%s"' % ends[3][1].split(';')[0])
 
@@ -609,7 +627,8 @@ def spinning(look):
 	look.forget()
 	model.velocity[:] = 0
 	O.engines[-1].damping, O.engines[-1].alpha = 'local', 0.5
-	for _ in range(20000): O.step()
+	for _ in range(20000):
+		O.step()
 	# what is left is rounding: strains of eps x some nodes x turned components against 1e-3, their square; 1e6 steps of it
 	look.below('elastic energy left when stopped, by that of spinning', (energy('Zones') + energy('Joints')) / elastic, 1e-12)
 	look.sentences.append('%d steps' % steps)
@@ -743,7 +762,10 @@ def tenThousand(look):
 	start = time.process_time()
 	look.run(300, samples=10)
 	spent = time.process_time() - start
-	look.true(abs(model.blockCount - 1e4) < 200, '%d blocks, %d zones, built in %.1f s, %.1f ms a step' % (model.blockCount, model.zoneCount, built, spent / 300 * 1e3))
+	look.true(
+		abs(model.blockCount - 1e4) < 200,
+		'%d blocks, %d zones, built in %.1f s, %.1f ms a step' % (model.blockCount, model.zoneCount, built, spent / 300 * 1e3)
+	)
 	look.true(np.isfinite(model.position).all(), '%d points broken' % np.count_nonzero(model.pointStatus))
 
 
@@ -781,7 +803,10 @@ def watchCost(look):
 	look.true(BlockIntegrator().watchPeriod == 100, 'default watchPeriod %d' % BlockIntegrator().watchPeriod)
 	for name, build in ('bonded', bonded), ('free contacts', loose):
 		times = np.array([(stepCost(build, 0, 2000), stepCost(build, 1, 2000)) for _ in range(3)]).min(axis=0)
-		look.below('%s: a look takes %.2f of a step of %.0f us; share' % (name, times[1] / times[0] - 1, 1e6 * times[0]), (times[1] / times[0] - 1) / 100, 0.01)
+		look.below(
+			'%s: a look takes %.2f of a step of %.0f us; share' % (name, times[1] / times[0] - 1, 1e6 * times[0]), (times[1] / times[0] - 1) / 100,
+			0.01
+		)
 
 
 # ---- running
@@ -810,9 +835,14 @@ for name, expected, function, _ in chosen:
 		look.true(False, '%s: %s' % (type(error).__name__, error))
 	look.forget()
 	if look.energyError is not None and not look.energyError <= look.energyLimit: look.true(False, 'energy does not balance')
-	entries.append({'case': name, 'expected': expected, 'seen': look.sentences, 'energy_error': look.energyError, 'steps': look.steps,
-	                'cpu_s': time.process_time() - start, 'passed': look.passed})
-	print('%-4s %-36s %5.1f s  energy %s' % ('ok' if look.passed else 'FAIL', name, entries[-1]['cpu_s'], 'none' if look.energyError is None else '%.1e' % look.energyError), flush=True)
+	entries.append({
+		'case': name, 'expected': expected, 'seen': look.sentences, 'energy_error': look.energyError, 'steps': look.steps,
+		'cpu_s': time.process_time() - start, 'passed': look.passed
+	})
+	print(
+		'%-4s %-36s %5.1f s  energy %s' %
+		('ok' if look.passed else 'FAIL', name, entries[-1]['cpu_s'], 'none' if look.energyError is None else '%.1e' % look.energyError), flush=True
+	)
 	if not look.passed: print('     ' + '\n     '.join(look.sentences), flush=True)
 
 failed = [entry['case'] for entry in entries if not entry['passed']]

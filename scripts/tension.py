@@ -38,7 +38,9 @@ brick = dict(young=16.7e9, poisson=0.2, density=1900) # Table 1
 mortar = dict(young=2.974e9, poisson=0.2, density=1250)
 table2 = dict(kn=400e9, ks=200e9, frictionAngle=radians(38), cohesion=0.75e6, tension=0.75e6, dilationAngle=radians(4))
 table3 = dict(table2, cohesion=0.60e6, tension=0.60e6)
-brickJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6) # with units=voronoi; Table 9, since none is given for these bricks
+brickJoint = dict(
+	kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6
+) # with units=voronoi; Table 9, since none is given for these bricks
 cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [MPa], its source
 	'TT1': (table2, table3, 2e-3, 0.35, 'Van der Pluijm 1992'),
 	'TT2': (table3, table3, 2e-3, 0.35, 'paper, Fig. 10'),
@@ -47,10 +49,13 @@ cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [M
 }
 stroke, velocity = 0.03e-3, 0.02e-3 # [m], [m/s]
 
-p = scenario.parameters(
-	{**scenario.commonParameters(size=0.0, sizeMeaning='edge', lloyd=0, alpha=0.8, steps=40000), 'case': 'TT2', 'units': 'plain', 'brickZone': 8e-3, 'merge': 0.2, 'jump': True, 'servo': False, 'halfRate': False, 'vtk': True},
-	{'case': tuple(cases), 'size': scenario.Rule(lambda s: 0 <= s < mortarHeight, 'must be positive and smaller than the mortar layer (0: of the case)'),
-	 'units': ('plain', 'voronoi'), 'brickZone': scenario.positive, 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')})
+p = scenario.parameters({
+	**scenario.commonParameters(size=0.0, sizeMeaning='edge', lloyd=0, alpha=0.8, steps=40000), 'case': 'TT2', 'units': 'plain', 'brickZone': 8e-3,
+	'merge': 0.2, 'jump': True, 'servo': False, 'halfRate': False, 'vtk': True
+}, {
+	'case': tuple(cases), 'size': scenario.Rule(lambda s: 0 <= s < mortarHeight, 'must be positive and smaller than the mortar layer (0: of the case)'),
+	'units': ('plain', 'voronoi'), 'brickZone': scenario.positive, 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')
+})
 mortarJoint, unitJoint, caseSize, expectedPeak, source = cases[p.case]
 p.size = p.size or caseSize
 area, duration = length * thickness, stroke / velocity
@@ -77,7 +82,9 @@ def build(seed):
 def pull(model, steps, progressLabel):
 	"""Loads until the stress has fallen to half the peak. Columns: displacement [m], stress [Pa], broken contact points, unbalanced ratio."""
 	low, high = brickHeight, brickHeight + mortarHeight
-	gauge = Gauge(model, below=nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), above=nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit'))
+	gauge = Gauge(
+		model, below=nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), above=nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit')
+	)
 	floor, cracks, history = 1e-3 * unitJoint['tension'] * area, Cracks(model), []
 	stop = loading.Stop(drop=0.5, displacement=2 * stroke)
 
@@ -90,10 +97,10 @@ def pull(model, steps, progressLabel):
 	O.dt = duration / steps
 	O.engines = [
 		InteractionLoop([Ig2_Block_Block_BlockGeom()],            # opening and slip
-		                [Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
-		                        JointMat(material1='mortar', material2='mortar', **mortarJoint),
-		                        JointMat(material1='unit', material2='mortar', **unitJoint)] + withinBricks)],
-		                [Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
+		[Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
+		JointMat(material1='mortar', material2='mortar', **mortarJoint),
+		JointMat(material1='unit', material2='mortar', **unitJoint)] + withinBricks)],
+		[Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
 		BlockTimeStepper(safety=p.safety),                         # scaled masses
 		BlockForces(),                                             # zones and joints, gathered node by node
 		BlockIntegrator(damping=p.damping, alpha=p.alpha)]         # motion
@@ -126,7 +133,9 @@ O.timingEnabled = True
 for seed in p.seedList:
 	with results.run(seed) as run:
 		model = build(seed)
-		if seed == p.seed and p.vtk: export = BlocksExport(p.folder); export.write(model, O.time)
+		if seed == p.seed and p.vtk:
+			export = BlocksExport(p.folder)
+			export.write(model, O.time)
 		with run.stepping():
 			(displacement, stress, broken, unbalanced), cracks = pull(model, p.steps, 'seed %d' % seed)
 		peak = stress.argmax()
@@ -134,7 +143,11 @@ for seed in p.seedList:
 
 		run.add('peak_tensile_stress', 'MPa', stress[peak] / 1e6, expectedPeak, source)
 		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
-		run.add('joint_stiffness', 'N/mm3', np.polyfit(displacement[elastic], stress[elastic], 1)[0] / 1e9, seriesStiffness() / 1e9, 'series of mortar and joints')
+		run.add(
+			'joint_stiffness', 'N/mm3',
+			np.polyfit(displacement[elastic], stress[elastic], 1)[0] / 1e9,
+			seriesStiffness() / 1e9, 'series of mortar and joints'
+		)
 		run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
 		run.add('crack_share_unit-mortar', '1', cracks.share('unit-mortar'))
 		run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, broken=broken)
@@ -148,6 +161,8 @@ for seed in p.seedList:
 		run.quality(half_rate_change=slow / stress[peak] - 1)
 
 results.write()
-pictures.drawCurve(p.folder / 'curve.png', results.curves, 'displacement_mm', 'stress_MPa',
-	labels=('mean opening across the mortar layer [mm]', 'tensile stress [N/mm²]'), title='Couplet in tension, %s' % p.case)
+pictures.drawCurve(
+	p.folder / 'curve.png', results.curves, 'displacement_mm', 'stress_MPa', labels=('mean opening across the mortar layer [mm]', 'tensile stress [N/mm²]'),
+	title='Couplet in tension, %s' % p.case
+)
 scenario.waitIfBatch()

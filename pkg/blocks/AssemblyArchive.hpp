@@ -54,6 +54,8 @@ namespace serialization {
 		KEEP(velocity), KEEP(travelled), KEEP(force), KEEP(work), KEEP(workTurnover), KEEP(pendingWork);
 	}
 
+	template <class Archive> void serialize(Archive& ar, blocks::ReleasedWork& x, unsigned) { KEEP(work), KEEP(turnover); }
+
 	template <class Archive> void serialize(Archive& ar, blocks::RigidBlock& x, unsigned)
 	{
 		KEEP(block), KEEP(origin), KEEP(mass), KEEP(moment), KEEP(inertia), KEEP(rotaryInertia), KEEP(load), KEEP(free);
@@ -79,7 +81,7 @@ namespace serialization {
 		KEEP(thickness), KEEP(materials);
 		KEEP(reference), KEEP(position), KEEP(velocity), KEEP(force), KEEP(load), KEEP(mass), KEEP(inertia);
 		KEEP(zoneNodes), KEEP(firstNode), KEEP(firstZone), KEEP(firstEdge), KEEP(blockMaterial), KEEP(edgeNodes);
-		KEEP(segments), KEEP(points), KEEP(pairs), KEEP(joints), KEEP(groups), KEEP(contacts), KEEP(rigid);
+		KEEP(segments), KEEP(points), KEEP(pairs), KEEP(joints), KEEP(groups), KEEP(released), KEEP(contacts), KEEP(rigid);
 		if (Archive::is_loading::value) x.rebuild();
 	}
 

@@ -24,8 +24,17 @@ void BlockCrackRecorder::action()
 			known.push_back(int(p.joint.status));
 		if (!fileName.empty()) std::ofstream(fileName) << "step time x y nx ny mode body1 body2 material1 material2\n";
 	}
-	while (!steps.empty() && steps.back() >= scene->iter) { // a rescued state is older than what was seen
-		points.pop_back(), modes.pop_back(), steps.pop_back(), times.pop_back(), positions.pop_back();
+	bool takenBack = false; // a rescued state is older than what was seen: there are joints that are whole again
+	for (size_t i = 0; i < a.points.size() && !takenBack; ++i)
+		takenBack = known[i] != 0 && a.points[i].joint.status == blocks::Joint::intact;
+	if (takenBack) {
+		size_t kept = 0;
+		for (size_t e = 0; e < points.size(); ++e) {
+			if (a.points[points[e]].joint.status == blocks::Joint::intact) continue;
+			points[kept] = points[e], modes[kept] = modes[e], steps[kept] = steps[e], times[kept] = times[e], positions[kept] = positions[e];
+			++kept;
+		}
+		points.resize(kept), modes.resize(kept), steps.resize(kept), times.resize(kept), positions.resize(kept);
 	}
 	const size_t before = points.size();
 	for (size_t i = 0; i < a.state.status.size(); ++i) {
@@ -42,6 +51,7 @@ void BlockCrackRecorder::action()
 	}
 	if (fileName.empty() || points.size() == before) return;
 	std::ofstream file(fileName, std::ios::app);
+	file.imbue(std::locale::classic());
 	file.precision(9);
 	for (size_t e = before; e < points.size(); ++e) {
 		const auto& g     = a.joints.segments[points[e] / 2];

@@ -78,8 +78,15 @@ void BlockTimeStepper::adjust(Scene* scene)
 		blocks::scaleInertia(model.assembly, stiffness, scene->dt, safety);
 		blocks::scaleRigidInertia(model.assembly, stiffness, scene->dt, safety);
 	} else {
-		if (std::isfinite(stableStep)) scene->dt = safety * stableStep; // rigid blocks that touch nothing have no limit
-		model.assembly.state.inertia = model.assembly.mesh.mass;
+		if (std::isfinite(stableStep))
+			scene->dt = safety * stableStep;
+		else if (toldDt != scene->dt) { // only rigid blocks, and they touch nothing
+			toldDt = scene->dt;
+			LOG_WARN(
+				"BlockTimeStepper: nothing limits the time step, as no block has zones and none touches another; O.dt stays "
+				<< blocks::shown(scene->dt) << " s unless you set it");
+		}
+		model.assembly.inertia = model.assembly.mass;
 		model.assembly.updateMobility();
 		blocks::restoreRigidInertia(model.assembly);
 	}
@@ -99,17 +106,19 @@ void BlockForces::gather()
 	const int              threads = threadsFor(model, ompThreads);
 	blocks::computeJointForces(a, threads);
 	blocks::gatherForces(a, threads);
-	if (!a.state.rigid.empty()) {
+	const bool look = modelOf.changed || !looked || scene->iter % askPeriod == 0;
+	if (look || !a.rigid.empty()) {
 		noteFreedom(scene, model);
 		const Engine* newton = requireMovers(scene, model);
-		if (newton && (newton != asked || scene->iter % askPeriod == 0)) {
-			const Real known    = model.newtonDamping;
-			model.newtonDamping = newtonDamping(*newton);
+		if (newton && (newton != asked || look)) {
+			const Real known = model.newtonDamping, damping = newtonDamping(*newton);
+			if (!a.rigid.empty()) model.newtonDamping = damping;
 			if (model.newtonDamping != known) model.stiffnessChanged(); // it lowers the stable step
 		}
-		asked = newton;
-		addRigidForces(scene, model);
+		asked  = newton;
+		looked = true;
 	}
+	if (!a.rigid.empty()) addRigidForces(scene, model);
 	model.forcesAt = scene->iter;
 
 	if (modelOf.changed) { // whether or not energy is tracked now: it may be later

@@ -62,7 +62,7 @@ public:
 private:
 	ModelOfScene modelOf;
 	long         doneVersion = 0;
-	Real         doneDt = 0, doneSafety = 0;
+	Real         doneDt = 0, doneSafety = 0, toldDt = 0;
 	bool         doneQuasiStatic = false;
 	int          scalingId       = -1;
 };
@@ -87,6 +87,7 @@ private:
 	ModelOfScene modelOf;
 	int          frictionId = -1, fractureId = -1;
 
+	bool                  looked    = false;   ///< at the other engines
 	const Engine*         asked     = nullptr; ///< the NewtonIntegrator that was asked for its attributes last
 	static constexpr long askPeriod = 100;     ///< steps until it is asked again
 };

@@ -215,9 +215,8 @@ namespace {
 
 	void release(BlockModel& model, const string& name)
 	{
-		MotionGroup& g = model.group(name);
-		model.assembly.state.groups.erase(model.assembly.state.groups.begin() + (&g - model.assembly.state.groups.data()));
-		model.assembly.updateMobility();
+		const MotionGroup& g = model.group(name);
+		model.assembly.releaseGroup(int(&g - model.assembly.groups.data()));
 		model.stiffnessChanged();
 	}
 
@@ -447,7 +446,7 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 	             &push,
 	             (arg("name"), arg("nodes"), arg("axis"), arg("force"), arg("rampTime") = 0., arg("startTime") = 0.),
 	             "Moves grid points along one axis as one, as under a platen that stays parallel, by a total force [N].")
-		.def("release", &release, (arg("name")), "Sets the grid points of a group free.")
+		.def("release", &release, (arg("name")), "Sets the grid points of a group free; they go on with the velocity they have. Its work stays in the accounts.")
 		.def("setTarget",
 	             &setTarget,
 	             (arg("name"), arg("target"), arg("rampTime") = 0.),

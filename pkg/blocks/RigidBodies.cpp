@@ -34,6 +34,13 @@ const Engine* requireMovers(const Scene* scene, const BlockModel& model)
 	enum { resetter, forces, newton, integrator, count };
 	int           place[count] = { -1, -1, -1, -1 }, i = 0;
 	const Engine* mover = nullptr;
+	auto          note  = [&](int which) {
+                if (place[which] >= 0)
+                        throw std::runtime_error(
+                                std::string("O.engines must have one ") + (which == newton ? "NewtonIntegrator" : "BlockIntegrator")
+                                + ", or blocks would move twice in a step, got two");
+                place[which] = i;
+	};
 	for (const auto& engine : scene->engines) {
 		const Engine& e = *engine;
 		++i;
@@ -41,12 +48,13 @@ const Engine* requireMovers(const Scene* scene, const BlockModel& model)
 		if (is(e, "N4yade13ForceResetterE"))
 			place[resetter] = i;
 		else if (is(e, "N4yade16NewtonIntegratorE"))
-			place[newton] = i, mover = &e;
+			note(newton), mover = &e;
 		else if (dynamic_cast<const BlockForces*>(&e))
 			place[forces] = i;
 		else if (dynamic_cast<const BlockIntegrator*>(&e))
-			place[integrator] = i;
+			note(integrator);
 	}
+	if (model.assembly.rigid.empty()) return mover; // wherever it stands, it moves no block
 	if (place[resetter] < 0 || place[resetter] > place[forces])
 		throw std::runtime_error(
 			"O.engines needs a ForceResetter before BlockForces because of " + named(model, model.assembly.state.rigid.front())
@@ -73,7 +81,8 @@ Real newtonDamping(const Engine& newton)
 	const Vector3r gravity    = py::extract<Vector3r>(attributes["gravity"]);
 	if (gravity != Vector3r::Zero())
 		throw std::runtime_error(
-			"NewtonIntegrator.gravity must be zero with rigid blocks, whose mass may be scaled: give it to BlockModel.gravity, got ("
+			"NewtonIntegrator.gravity must be zero with blocks, whose grid points it does not move and whose mass may be scaled: give it to "
+			"BlockModel.gravity, got ("
 			+ blocks::shown(gravity.x()) + ", " + blocks::shown(gravity.y()) + ", " + blocks::shown(gravity.z()) + ")");
 	return py::extract<Real>(attributes["damping"]);
 }

@@ -3,12 +3,12 @@
 #include "BlockModel.hpp"
 #include <blocks/kernel/step/RigidBlocks.hpp>
 
-/// Rigid blocks as bodies that YADE's own engines move: what the block engines read from their State and write to it. Scenes without
-/// rigid blocks do not come here.
+/// Rigid blocks as bodies that YADE's own engines move: what the block engines read from their State and write to it; and what other
+/// engines must not do to blocks of any kind.
 namespace yade {
 
-/// Refuses a step in which rigid blocks would not move as they should: ForceResetter, NewtonIntegrator missing or out of order.
-/// Returns NewtonIntegrator, if there is one.
+/// Refuses a step in which blocks would not move as they should: two engines that move them; with rigid blocks ForceResetter, NewtonIntegrator
+/// missing or out of order. Returns NewtonIntegrator, if there is one.
 const Engine* requireMovers(const Scene*, const BlockModel&);
 
 /// NewtonIntegrator.damping; refuses gravity there. Asks Python, so not to be done in every step.

@@ -22,7 +22,7 @@ def importYade():
 		prefix = os.environ.get('YADE_PREFIX', '/usr')
 		folders = glob.glob(prefix + '/lib/*/yade-double/py')
 		if not folders: raise ImportError('yadeblocks needs YADE: there is no %s/lib/*/yade-double/py' % prefix)
-		os.environ.setdefault('OMP_NUM_THREADS', '1')  # as the program `yade` does
+		os.environ.setdefault('OMP_NUM_THREADS', '1') # as the program `yade` does
 		sys.path.append(folders[0])
 		import yade
 	return yade
@@ -67,7 +67,7 @@ def publish(yade):
 	vars(yade).update(classes)
 	yade.__all__ += classes
 	session = vars(sys.modules['__main__'])
-	if session.get('Shape') is yade.wrapper.Shape: session.update(classes)  # it has done `from yade import *`
+	if session.get('Shape') is yade.wrapper.Shape: session.update(classes) # it has done `from yade import *`
 	return classes
 
 

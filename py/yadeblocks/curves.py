@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+
 def measure(experiment, x, y):
 	"""The quantities of one stress curve: {name: (value, unit)}; x in mm (compression: strain in permille), y in N/mm2 = MPa.
 
@@ -43,7 +44,7 @@ def expectations(experiment, sigma=0.0):
 		return {"peak_tensile_stress": (0.35, "Van der Pluijm 1992"), "joint_stiffness": (1e-9 / layer, "series of mortar and joints")}
 	if experiment == "shear":
 		return {
-		        "peak_shear_stress": (0.87 + 1.01 * sigma / 1e6, "Van der Pluijm 1993"),
-		        "residual_shear_stress": (0.73 * sigma / 1e6 or None, "Van der Pluijm 1993")
+			"peak_shear_stress": (0.87 + 1.01 * sigma / 1e6, "Van der Pluijm 1993"),
+			"residual_shear_stress": (0.73 * sigma / 1e6 or None, "Van der Pluijm 1993")
 		}
 	return {"compressive_strength": (27.5, "Oliveira 2003"), "youngs_modulus": (4100., "Oliveira 2003")}

@@ -59,7 +59,6 @@ class BlocksExport:
 	Zones: block, material (number in O.materials' order), stresses sxx, syy, sxy and principal stresses s1, s2 [Pa]; grid points:
 	displacement [m], velocity [m/s]; joints: firstBlock, secondBlock, opening [m], slip [m], sigma [Pa], tau [Pa], status (0 intact,
 	1 broken in tension, 2 in shear, 3 never bonded)."""
-
 	def __init__(self, folder):
 		self.folder = Path(folder)
 		self.folder.mkdir(parents=True, exist_ok=True)
@@ -85,10 +84,12 @@ def _writeZones(path, model):
 	stress = np.zeros((len(blocks), 3)) # none in rigid blocks
 	stress[:len(triangles[0])] = model.zoneStress()
 	_writeGrid(
-	        path, model.position, "triangle", np.concatenate(triangles),
-	        {"displacement": _spatial(model.position - model.reference), "velocity": _spatial(model.velocity)},
-	        {"block": blocks, "material": np.asarray(model.blockMaterial, np.int32)[blocks],
-	         **dict(zip(("sxx", "syy", "sxy"), stress.T)), **dict(zip(("s1", "s2"), principalStresses(stress).T))}
+		path, model.position, "triangle", np.concatenate(triangles),
+		{"displacement": _spatial(model.position - model.reference), "velocity": _spatial(model.velocity)}, {
+			"block": blocks, "material": np.asarray(model.blockMaterial, np.int32)[blocks], **dict(zip(("sxx", "syy", "sxy"), stress.T)),
+			**dict(zip(("s1", "s2"),
+					principalStresses(stress).T))
+		}
 	)
 
 
@@ -96,9 +97,11 @@ def _writeJoints(path, model):
 	lines = contactLines(model, model.position)
 	first, second = np.repeat(np.asarray(model.segmentBlocks, np.int32), 2, axis=0).T
 	_writeGrid(
-	        path, lines.reshape(-1, 2), "line", np.arange(2 * len(lines)).reshape(-1, 2), {},
-	        {"firstBlock": first, "secondBlock": second, "opening": model.pointOpening, "slip": model.pointSlip, "sigma": model.pointSigma,
-	         "tau": model.pointTau, "status": np.asarray(model.pointStatus, np.uint8)}
+		path, lines.reshape(-1, 2), "line",
+		np.arange(2 * len(lines)).reshape(-1, 2), {}, {
+			"firstBlock": first, "secondBlock": second, "opening": model.pointOpening, "slip": model.pointSlip, "sigma": model.pointSigma,
+			"tau": model.pointTau, "status": np.asarray(model.pointStatus, np.uint8)
+		}
 	)
 
 
@@ -111,8 +114,13 @@ def _writeGrid(path, points, kind, cells, pointData, cellData):
 	"""A compressed .vtu file of equal cells, (m, corners) point indices."""
 	from meshio import Mesh, vtu # not VTK: ParaView's Python and YADE's VTK cannot live in one process
 	plain = lambda values: np.array(values, order="C") # meshio takes bytes as they lie
-	vtu.write(path, Mesh(_spatial(points), [(kind, plain(cells))], {name: plain(values) for name, values in pointData.items()},
-		{name: [plain(values)] for name, values in cellData.items()}))
+	vtu.write(
+		path,
+		Mesh(
+			_spatial(points), [(kind, plain(cells))], {name: plain(values) for name, values in pointData.items()},
+			{name: [plain(values)] for name, values in cellData.items()}
+		)
+	)
 
 
 def _writeCollection(folder, name, times):

@@ -16,7 +16,6 @@ from pathlib import Path
 
 class Marks:
 	"""Switches callgrind's counting on and off from within; the library is built by scripts/price.sh."""
-
 	def __init__(self, library):
 		self.library = ctypes.CDLL(str(library))
 
@@ -30,7 +29,6 @@ class Marks:
 
 class Profile:
 	"""Instructions by place: a Counter over (function, source file, line), each line's own cost."""
-
 	def __init__(self, places=()):
 		self.places = Counter(places)
 
@@ -59,7 +57,6 @@ class Profile:
 
 class Feature:
 	"""Where a feature's code is: regular expressions for its own source files, and for lines elsewhere."""
-
 	def __init__(self, files=None, lines=None):
 		self.files, self.lines = files, lines
 
@@ -71,6 +68,7 @@ def sourceLines(root):
 	def source(file):
 		if file not in known: known[file] = Path(file).read_text().splitlines() if file.startswith(root) and Path(file).is_file() else []
 		return known[file]
+
 	return source
 
 
@@ -97,9 +95,14 @@ def parseProfile(lines):
 		elif line[:1].isdigit():
 			position, cost = line.split()[:2]
 			places[function, file, int(position)] += int(cost)
-		elif line.startswith('calls='): inclusive = True
-		elif line.startswith(('fl=', 'fi=', 'fe=')): file = line[3:]
-		elif line.startswith('fn='): function = line[3:]
-		elif line.startswith('desc: Trigger: Client Request: '): name = line[31:]
-		elif line.startswith('positions:') and line != 'positions: line': raise ValueError('callgrind profile with %s, expected "positions: line"' % line)
+		elif line.startswith('calls='):
+			inclusive = True
+		elif line.startswith(('fl=', 'fi=', 'fe=')):
+			file = line[3:]
+		elif line.startswith('fn='):
+			function = line[3:]
+		elif line.startswith('desc: Trigger: Client Request: '):
+			name = line[31:]
+		elif line.startswith('positions:') and line != 'positions: line':
+			raise ValueError('callgrind profile with %s, expected "positions: line"' % line)
 	return name, Profile(places)

@@ -43,7 +43,6 @@ class Jobs:
 
 	house: the checkout; plugin: the library that scripts load; pluginFree: scripts whose results do not depend on it;
 	limit: seconds of wall-clock time after which a run counts as failed; parallel: how many at a time."""
-
 	def __init__(self, house, folder, plugin, pluginFree=(), limit=1800, parallel=1, retry=False, stream=None):
 		self.house, self.folder, self.plugin, self.pluginFree = Path(house), Path(folder).resolve(), Path(plugin).resolve(), pluginFree
 		self.limit, self.parallel, self.retry, self.stream = limit, parallel, retry, stream or sys.stderr
@@ -72,7 +71,9 @@ class Jobs:
 		seen = {}
 		for job in jobs:
 			kept = self.result(job)
-			if kept is None or ("failed" in kept and (self.retry or kept.get("limit", math.inf) < self.limit or kept["failed"].startswith("exit code -"))): # killed
+			if kept is None or (
+				"failed" in kept and (self.retry or kept.get("limit", math.inf) < self.limit or kept["failed"].startswith("exit code -"))
+			): # killed
 				seen.setdefault(job.name, job)
 		return list(seen.values())
 
@@ -120,20 +121,26 @@ class Jobs:
 		words = [f"{name}={study.plain(value)}" for name, value in job.settings.items()]
 		command = ["yade", "-n", "-x", "-j1", str(self.house / "scripts" / f"{job.script}.py"), *words, f"seed={job.seed}", f"tag={key}"]
 		environment = {
-		        **os.environ, "OMP_WAIT_POLICY": "passive", "YADEBLOCKS_PLUGIN": str(self.plugin),
-		        "PYTHONPATH": os.pathsep.join([str(self.house / "py"), *filter(None, [os.environ.get("PYTHONPATH")])])
+			**os.environ, "OMP_WAIT_POLICY": "passive", "YADEBLOCKS_PLUGIN": str(self.plugin),
+			"PYTHONPATH": os.pathsep.join([str(self.house / "py"), *filter(None, [os.environ.get("PYTHONPATH")])])
 		}
 		log = self.work / f"{key}.log"
 		with open(log, "w") as output:
 			with self.lock:
 				if self.stopped: return
-				process = subprocess.Popen(command, cwd=self.work, env=environment, stdout=output, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, start_new_session=True)
+				process = subprocess.Popen(
+					command, cwd=self.work, env=environment, stdout=output, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+					start_new_session=True
+				)
 				self.running.add(process)
 			reason = self._wait(process)
 		if self.stopped:
 			return
 		self._unchanged(job)
-		record = {"parallel": self.parallel, "job": {"script": job.script, "settings": job.settings, "seed": job.seed}, "command": " ".join(["scripts/run.sh", job.script, *words, f"seed={job.seed}"])}
+		record = {
+			"parallel": self.parallel, "job": {"script": job.script, "settings": job.settings, "seed": job.seed},
+			"command": " ".join(["scripts/run.sh", job.script, *words, f"seed={job.seed}"])
+		}
 		try:
 			record.update(self._read(job, key) if not reason else {"failed": f"{reason}: {_lastLine(log)}"})
 			if reason.startswith("not done"): record["limit"] = self.limit # more time may do
@@ -171,9 +178,9 @@ class Jobs:
 		folder = self.work / "out" / f"{job.script}-{key}"
 		result, curve = json.loads((folder / "result.json").read_text()), pandas.read_csv(folder / "curve.csv")
 		return {
-		        "reported": {quantity["name"]: quantity["measured"] for quantity in result["quantities"]},
-		        "expected": {quantity["name"]: quantity["expected"] for quantity in result["quantities"] if quantity["expected"] is not None}, "cost": result["cost"],
-		        "quality": result["quality"], "curve": [curve.iloc[:, 1].tolist(), curve["stress_MPa"].tolist()]
+			"reported": {quantity["name"]: quantity["measured"] for quantity in result["quantities"]}, "expected": {
+				quantity["name"]: quantity["expected"] for quantity in result["quantities"] if quantity["expected"] is not None
+			}, "cost": result["cost"], "quality": result["quality"], "curve": [curve.iloc[:, 1].tolist(), curve["stress_MPa"].tolist()]
 		}
 
 	def _code(self, script):
@@ -206,7 +213,6 @@ def _lastLine(log):
 
 class _ProgressLine:
 	"""done/all, the last job, the time left: jobs that cost more (by their steps) are expected to take longer."""
-
 	def __init__(self, jobs, parallel, stream):
 		self.left, self.total, self.parallel, self.stream = {job.name: job for job in jobs}, len(jobs), parallel, stream
 		self.walls, self.start, self.lock = {}, time.monotonic(), threading.Lock()

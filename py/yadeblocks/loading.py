@@ -32,7 +32,6 @@ class Approach:
 
 	>>> approach = Approach(model, 'top', slow=0.25)
 	>>> approach(stress, broken)     # every now and then"""
-
 	def __init__(self, model, group, slow, drop=0.7):
 		if not 0 < slow <= 1: raise ValueError('Approach: slow must lie in (0, 1], got %r' % slow)
 		if not 0 < drop < 1: raise ValueError('Approach: drop must lie in (0, 1), got %r' % drop)
@@ -55,7 +54,6 @@ class Stop:
 	drop: the stress has fallen below this fraction of its peak, after something has broken;
 	displacement: the displacement has reached this [m]; cracks: so many contact points are broken.
 	`reason` says which one it was ("drop", "displacement", "cracks"), "" while none holds."""
-
 	def __init__(self, drop=None, displacement=None, cracks=None):
 		if drop is None and displacement is None and cracks is None: raise ValueError('Stop: no condition is given')
 		if drop is not None and not 0 < drop < 1: raise ValueError('Stop: drop must lie in (0, 1), got %r' % drop)

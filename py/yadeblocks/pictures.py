@@ -18,7 +18,7 @@ from .export import blockOutlines, contactLines, pairName
 from .results import Cracks, modes
 
 #: What a curve is compared with: y is a number (drawn as a line), a pair (a band) or, with x, a measured curve.
-Reference = namedtuple("Reference", "label y x", defaults=(None,))
+Reference = namedtuple("Reference", "label y x", defaults=(None, ))
 
 # Okabe and Ito's colours, which colour-blind readers and grey prints keep apart.
 _blue, _vermillion, _green, _purple, _black = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000"
@@ -29,9 +29,9 @@ _spareTones = ("#DDE6DF", "#E3DDEA", "#EFE3C2", "#D6E4EE")
 _modeStyles = {"tension": "solid", "shear": (0, (1.8, 1.1))} # dash and gap in line widths
 
 _style = {
-        "font.size": 9, "legend.fontsize": 8, "legend.title_fontsize": 8, "legend.frameon": False,
-        "axes.linewidth": 0.6, "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.direction": "in", "ytick.direction": "in",
-        "xtick.major.pad": 5, "ytick.major.pad": 5, "axes.spines.top": False, "axes.spines.right": False
+	"font.size": 9, "legend.fontsize": 8, "legend.title_fontsize": 8, "legend.frameon": False, "axes.linewidth": 0.6, "xtick.major.width": 0.6,
+	"ytick.major.width": 0.6, "xtick.direction": "in", "ytick.direction": "in", "xtick.major.pad": 5, "ytick.major.pad": 5, "axes.spines.top": False,
+	"axes.spines.right": False
 }
 _textWidth = 6.3 # of a page: the width of a picture [inch]
 _point = 1 / 72 # [inch]
@@ -83,8 +83,8 @@ def drawCracks(path, model, magnification=None, window=None, title=""):
 		cracks, blocks = _drawCrackLines(axes, model, shown), _drawBlocks(axes, model, shown)
 		_drawScale(axes, magnification)
 		axes.legend(
-		        handles=cracks + blocks, title="" if cracks else "no broken joints", loc="upper center", borderaxespad=0,
-		        bbox_to_anchor=(0.5, -26 * _point / height), ncol=math.ceil(len(cracks + blocks) / len(modes)), columnspacing=1.4, handlelength=2.2
+			handles=cracks + blocks, title="" if cracks else "no broken joints", loc="upper center", borderaxespad=0,
+			bbox_to_anchor=(0.5, -26 * _point / height), ncol=math.ceil(len(cracks + blocks) / len(modes)), columnspacing=1.4, handlelength=2.2
 		)
 	return path
 
@@ -153,7 +153,9 @@ def _drawCrackLines(axes, model, shown):
 		for mode, value in modes.items():
 			style = dict(color=colours[pair], linestyle=_modeStyles[mode], linewidth=width)
 			broken = (pairs == pair) & (status == value)
-			axes.add_collection(LineCollection(_chains(lines[broken], ends[broken]), capstyle="butt", joinstyle="round", zorder=2, **style), autolim=False)
+			axes.add_collection(
+				LineCollection(_chains(lines[broken], ends[broken]), capstyle="butt", joinstyle="round", zorder=2, **style), autolim=False
+			)
 			handles.append(Line2D([], [], label=f"{pair}, {mode} ({count[mode]})", **style))
 	return handles
 
@@ -221,7 +223,7 @@ def _window(reference, shown):
 
 def _roundDown(number):
 	"""The next 1, 2 or 5 times a power of ten that is not larger."""
-	power = 10.0 ** math.floor(math.log10(number))
+	power = 10.0**math.floor(math.log10(number))
 	return max(factor for factor in (1, 2, 5) if factor * power <= number * (1 + 1e-12)) * power
 
 

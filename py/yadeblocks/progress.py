@@ -13,7 +13,6 @@ class Progress:
 	else every ten seconds, a line each. Between these it costs one look at the clock. `report` is only called to be shown.
 
 	steps: the number of the last step; report: a function without arguments that returns text; label: what is running."""
-
 	def __init__(self, steps, report=None, label="", stream=None):
 		self.steps, self.report, self.label = steps, report, label
 		self.stream = stream or sys.stderr

@@ -36,7 +36,6 @@ class Cracks:
 	"""What has broken in a model, and what broke first: `look()` every now and then, the rest whenever it is wanted.
 
 	To be made at the start of a run: areas count as they were bonded."""
-
 	def __init__(self, model):
 		self.model = model
 		self.pairs = np.array([pairName(model, *blocks) for blocks in model.segmentBlocks], dtype=object).repeat(2)
@@ -96,16 +95,12 @@ class Quantity:
 		return (self.measured - self.expected) / self.expected if self.expected else None
 
 	def asDict(self):
-		entry = {
-		        "name": self.name, "unit": self.unit, "measured": self.measured,
-		        "expected": self.expected, "source": self.source, "error": self.error
-		}
+		entry = {"name": self.name, "unit": self.unit, "measured": self.measured, "expected": self.expected, "source": self.source, "error": self.error}
 		return entry if self.scatter is None else {**entry, "scatter": self.scatter}
 
 
 class Run:
 	"""What one tessellation gave; made by `Results.run`."""
-
 	def __init__(self, seed, threads=1):
 		self.seed = seed
 		self.quantities = {}
@@ -146,8 +141,8 @@ class Run:
 	def model(self, model, steps, **more):
 		"""Sizes and cracks of the model as it is now, after `steps` time steps. `more` joins the cost (ns_per_zone=...)."""
 		self.costs.update(
-		        steps=int(steps), blocks=len(model.blockMaterial), nodes=len(model.position), zones=len(model.zoneNodes),
-		        contacts=len(model.pointStatus), **more
+			steps=int(steps), blocks=len(model.blockMaterial), nodes=len(model.position), zones=len(model.zoneNodes),
+			contacts=len(model.pointStatus), **more
 		)
 		for pair, counts in Cracks(model).counts().items():
 			for mode, count in counts.items():
@@ -158,8 +153,8 @@ class Run:
 		steps = self.costs.get("steps")
 		stepping = cpu if self.steppingTime is None else self.steppingTime
 		self.costs.update(
-		        cpu_s=cpu, wall_s=wall, us_per_step=1e6 * stepping / steps if steps else None,
-		        peak_rss_mb=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e6
+			cpu_s=cpu, wall_s=wall, us_per_step=1e6 * stepping / steps if steps else None,
+			peak_rss_mb=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e6
 		)
 
 
@@ -171,14 +166,13 @@ def engineCosts(model, steps):
 		return {}
 	times = {type(engine).__name__: engine.execTime for engine in Omega().engines}
 	return {
-	        "ns_per_zone": times["BlockForces"] / steps / max(1, model.zoneCount),
-	        "ns_per_contact": times["InteractionLoop"] / steps / max(1, model.contactCount)
+		"ns_per_zone": times["BlockForces"] / steps / max(1, model.zoneCount),
+		"ns_per_contact": times["InteractionLoop"] / steps / max(1, model.contactCount)
 	}
 
 
 class Results:
 	"""Gathers the runs of a scenario. `parameters`: from scenario.parameters."""
-
 	def __init__(self, parameters):
 		self.parameters = parameters
 		self.folder = parameters.folder
@@ -218,12 +212,12 @@ class Results:
 		keys = "cpu_s wall_s steps us_per_step blocks nodes zones contacts peak_rss_mb threads".split()
 		qualities = "unbalanced_ratio_max half_rate_change energy_error".split()
 		return {
-		        "scenario": self.parameters.scenario,
-		        "parameters": self.parameters.asDict(),
-		        "seed": getattr(self.parameters, "seed", None),
-		        "quantities": [quantity.asDict() for quantity in self.quantities],
-		        "cost": {**{key: costs.get(key) for key in keys}, **costs},
-		        "quality": {**{name: self._quality(name) for name in qualities}, "without_peak": self.withoutPeak},
+			"scenario": self.parameters.scenario,
+			"parameters": self.parameters.asDict(),
+			"seed": getattr(self.parameters, "seed", None),
+			"quantities": [quantity.asDict() for quantity in self.quantities],
+			"cost": {**{key: costs.get(key) for key in keys}, **costs},
+			"quality": {**{name: self._quality(name) for name in qualities}, "without_peak": self.withoutPeak},
 		}
 
 	@property
@@ -267,12 +261,15 @@ class Results:
 		quality = [f"{name} {value:.2g}" for name, value in result["quality"].items() if isinstance(value, float)]
 		rising = ", ".join(map(str, self.withoutPeak))
 		cost = [
-		        f"{_short(result['cost'][key])} {unit}" for key, unit in
-		        (("cpu_s", "CPU s"), ("wall_s", "s"), ("steps", "steps"), ("us_per_step", "µs/step"), ("zones", "zones"), ("contacts", "contact points"),
-		         ("ns_per_zone", "ns/zone"), ("ns_per_contact", "ns/contact point"))
-		        if result["cost"].get(key) is not None
+			f"{_short(result['cost'][key])} {unit}"
+			for key, unit in (("cpu_s", "CPU s"), ("wall_s", "s"), ("steps", "steps"), ("us_per_step", "µs/step"), ("zones", "zones"),
+						("contacts", "contact points"), ("ns_per_zone", "ns/zone"), ("ns_per_contact", "ns/contact point"))
+			if result["cost"].get(key) is not None
 		]
-		return [f"no peak in seed {rising}: the stress did not fall by 5 % after its highest value; a longer stroke would show whether it does"] * bool(rising) + ["quality: " + ", ".join(quality)] * bool(quality) + ["one run: " + ", ".join(cost)] * bool(cost) + [f"see {self.folder}"]
+		return [f"no peak in seed {rising}: the stress did not fall by 5 % after its highest value; a longer stroke would show whether it does"
+			] * bool(rising) + ["quality: " + ", ".join(quality)] * bool(quality) + ["one run: " + ", ".join(cost)] * bool(cost) + [
+				f"see {self.folder}"
+			]
 
 
 def _falls(stress):

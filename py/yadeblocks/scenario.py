@@ -32,18 +32,21 @@ atLeastOne = Rule(lambda n: n >= 1, "must be at least 1")
 _Common = namedtuple("_Common", "default rule meaning")
 
 _common = {
-        "seed": _Common(1, notNegative, "number of the first tessellation"),
-        "seeds": _Common(1, atLeastOne, "how many tessellations; results are their means"),
-        "threads": _Common(1, atLeastOne, "OpenMP threads"),
-        "tag": _Common("", Rule(lambda t: re.fullmatch(r"[\w.,=+-]*", t), "must consist of letters, digits and . , = + - _"), "makes the folder out/NAME-TAG"),
-        "size": _Common(2e-3, positive, "size of the Voronoi cells [m]"),
-        "sizeMeaning": _Common("edge", choice("edge", "sqrtArea"), "size is the mean edge length, or the root of the mean area"),
-        "lloyd": _Common(2, notNegative, "Lloyd iterations: how regular the cells are"),
-        "damping": _Common("local", choice("local", "adaptive", "none"), "damping of the motion"),
-        "alpha": _Common(0.3, Rule(lambda a: 0 <= a < 1, "must lie in [0, 1)"), "coefficient of local damping"),
-        "safety": _Common(0.7, Rule(lambda s: 0 < s <= 0.95, "must lie in (0, 0.95]"), "time step as a fraction of the stable one; with local damping at most 0.95/sqrt(1+alpha)"),
-        "steps": _Common(40000, Rule(lambda n: n >= 1000, "must be at least 1000"), "time steps for the whole loading"),
-        "plane": _Common("strain", choice("strain", "stress"), "plane strain or plane stress"),
+	"seed": _Common(1, notNegative, "number of the first tessellation"),
+	"seeds": _Common(1, atLeastOne, "how many tessellations; results are their means"),
+	"threads": _Common(1, atLeastOne, "OpenMP threads"),
+	"tag": _Common("", Rule(lambda t: re.fullmatch(r"[\w.,=+-]*", t), "must consist of letters, digits and . , = + - _"), "makes the folder out/NAME-TAG"),
+	"size": _Common(2e-3, positive, "size of the Voronoi cells [m]"),
+	"sizeMeaning": _Common("edge", choice("edge", "sqrtArea"), "size is the mean edge length, or the root of the mean area"),
+	"lloyd": _Common(2, notNegative, "Lloyd iterations: how regular the cells are"),
+	"damping": _Common("local", choice("local", "adaptive", "none"), "damping of the motion"),
+	"alpha": _Common(0.3, Rule(lambda a: 0 <= a < 1, "must lie in [0, 1)"), "coefficient of local damping"),
+	"safety": _Common(
+		0.7, Rule(lambda s: 0 < s <= 0.95, "must lie in (0, 0.95]"),
+		"time step as a fraction of the stable one; with local damping at most 0.95/sqrt(1+alpha)"
+	),
+	"steps": _Common(40000, Rule(lambda n: n >= 1000, "must be at least 1000"), "time steps for the whole loading"),
+	"plane": _Common("strain", choice("strain", "stress"), "plane strain or plane stress"),
 }
 
 
@@ -64,7 +67,6 @@ class ParameterError(ValueError):
 
 class Parameters:
 	"""Checked parameters as attributes. `vars(p)` are the keys and values; what follows from them:"""
-
 	def __init__(self, scenario, values):
 		self.__dict__.update(values)
 		self.__dict__["scenario"] = scenario
@@ -110,7 +112,9 @@ def parse(words, defaults, allowed=None, scenario="scenario"):
 	if "alpha" in texts and values.get("damping", "local") != "local":
 		raise ParameterError(f"{scenario}.alpha must only be given with damping=local, got damping={values['damping']}")
 	if "safety" in values and values.get("damping") == "local" and values["safety"] > 0.95 / math.sqrt(1 + values["alpha"]):
-		raise ParameterError(f"{scenario}.safety must not exceed 0.95/sqrt(1+alpha) = {0.95 / math.sqrt(1 + values['alpha']):.3g} with damping=local, got {values['safety']}")
+		raise ParameterError(
+			f"{scenario}.safety must not exceed 0.95/sqrt(1+alpha) = {0.95 / math.sqrt(1 + values['alpha']):.3g} with damping=local, got {values['safety']}"
+		)
 	return Parameters(scenario, values)
 
 

@@ -43,7 +43,6 @@ class Gauge:
 	>>> gauge = Gauge(model, below=nodesWhere(...), above=nodesWhere(...), axis='y')
 	>>> gauge()  # [m]
 	"""
-
 	def __init__(self, model, below, above, axis='y'):
 		if axis not in ('x', 'y'): raise ValueError("Gauge: axis must be 'x' or 'y', got %r" % axis)
 		self.model, self.below, self.above, self.axis = model, below, above, 'xy'.index(axis)

@@ -17,7 +17,7 @@ def sourcesOf(script, package):
 			continue
 		found.add(path)
 		for name in _imported(path, inside=path.parent == Path(package)):
-			waiting += [file for file in (Path(package) / f"{name}.py",) if file.exists()]
+			waiting += [file for file in (Path(package) / f"{name}.py", ) if file.exists()]
 	return sorted(found)
 
 

@@ -11,15 +11,13 @@ import numpy as np
 
 #: The first one is the quantity that plots and readings are about.
 quantities = {
-        "tension": ("peak_tensile_stress", "joint_stiffness"),
-        "shear": ("peak_shear_stress", "residual_shear_stress", "shear_stiffness"),
-        "compression": ("compressive_strength", "youngs_modulus")
+	"tension": ("peak_tensile_stress", "joint_stiffness"), "shear": ("peak_shear_stress", "residual_shear_stress", "shear_stiffness"),
+	"compression": ("compressive_strength", "youngs_modulus")
 }
 shortNames = {
-        "peak_tensile_stress": "peak", "peak_shear_stress": "peak", "compressive_strength": "peak", "residual_shear_stress": "residual",
-        "joint_stiffness": "stiffness", "shear_stiffness": "stiffness", "youngs_modulus": "stiffness"
+	"peak_tensile_stress": "peak", "peak_shear_stress": "peak", "compressive_strength": "peak", "residual_shear_stress": "residual",
+	"joint_stiffness": "stiffness", "shear_stiffness": "stiffness", "youngs_modulus": "stiffness"
 }
-
 
 #: Knobs that change the specimen or its parameters, not only the way it is computed: their points are no settings to choose for a wanted error.
 specimenKnobs = ("size", "plane", "units", "radius", "one set", "low friction")
@@ -83,16 +81,17 @@ def summarise(case, model, knob, label, names, results, truths, references, isRe
 
 	def against(name):
 		pairs = [(result["measures"][name], references[seed]["measures"][name]) for seed, result in good.items()
-		         if references.get(seed) and "failed" not in references[seed]]
+				if references.get(seed) and "failed" not in references[seed]]
 		return errorOf(*zip(*pairs)) if pairs else None
 
 	missing = sum(result is None for result in results.values())
 	failed = "; ".join(reasons + [f"{missing} of {len(results)} not run"] * bool(missing))
 	return Row(
-	        case, model, knob, label, len(good), float(np.median([result["cost"]["cpu_s"] for result in good.values()])) if good else math.nan,
-	        {name: mean(values) for name, values in measured.items()}, {name: errorOf(values, truths.get(name)) for name, values in measured.items()},
-	        {} if isReference else {name: against(name) for name in names}, failed, isReference,
-	        sum(bool((result.get("quality") or {}).get("without_peak")) for result in good.values())
+		case, model, knob, label, len(good),
+		float(np.median([result["cost"]["cpu_s"] for result in good.values()])) if good else math.nan,
+		{name: mean(values) for name, values in measured.items()}, {name: errorOf(values, truths.get(name)) for name, values in measured.items()},
+		{} if isReference else {name: against(name) for name in names}, failed, isReference,
+		sum(bool((result.get("quality") or {}).get("without_peak")) for result in good.values())
 	)
 
 
@@ -121,7 +120,9 @@ def reading(rows, names, limits=(0.05, 0.02, 0.01), most=10):
 	known = check.reference if check else {}
 	if known.get(peak):
 		moves = ", ".join(f"{shortNames[name]} {_signed(known[name].mean)} ± {_percent(known[name].scatter)}" for name in names if known.get(name))
-		lines.append(f"Errors are rms over {known[peak].seeds} seeds against each seed's own slow run; that one moves when loaded twice as fast: {moves}.")
+		lines.append(
+			f"Errors are rms over {known[peak].seeds} seeds against each seed's own slow run; that one moves when loaded twice as fast: {moves}."
+		)
 	said = [text for text in (_bestFor(blocks, name, known.get(name), limits) for name in names) if text]
 	lines += said[:1]
 	converged = [row for row in rows if row.model == "blocks" and row.isReference and row.laboratory.get(peak)]
@@ -133,7 +134,10 @@ def reading(rows, names, limits=(0.05, 0.02, 0.01), most=10):
 		if row.knob not in specimenKnobs and row.sound and row.laboratory.get(peak):
 			best[row.model] = min(best.get(row.model, row), row, key=lambda row: row.rms("laboratory", peak))
 	if best:
-		told = [f"{row.model} {_laboratory(row, names)} ({row.cpu:.2g} CPU s)" for row in sorted(best.values(), key=lambda row: row.rms("laboratory", peak))]
+		told = [
+			f"{row.model} {_laboratory(row, names)} ({row.cpu:.2g} CPU s)"
+			for row in sorted(best.values(), key=lambda row: row.rms("laboratory", peak))
+		]
 		lines.append("YADE's own models against the laboratory, each calibrated for this experiment: " + "; ".join(told) + ".")
 	for knob, words in (("one set", "With the parameters of tension"), ("low friction", "With a friction of 5°")):
 		told = [f"{row.model} {_laboratory(row, names)}" for row in rows if row.knob == knob and row.laboratory.get(peak)]
@@ -142,13 +146,15 @@ def reading(rows, names, limits=(0.05, 0.02, 0.01), most=10):
 	lines += [knob] * bool(knob) + said[1:]
 	rates = [row for row in others if row.knob == "steps" and not math.isnan(row.rms("reference", peak))]
 	if rates:
-		lines.append("YADE's own models against their own slow runs: " + "; ".join(f"{row.model} {row.label} {_percent(row.rms('reference', peak))} ({row.cpu:.2g} s)" for row in rates) + ".")
+		lines.append(
+			"YADE's own models against their own slow runs: " +
+			"; ".join(f"{row.model} {row.label} {_percent(row.rms('reference', peak))} ({row.cpu:.2g} s)" for row in rates) + "."
+		)
 	warnings = []
-	for words, told in (
-	        ("Not all seeds were run (yet)", [row for row in rows if row.failed.endswith("not run")]),
-	        ("Failed, see the table", [row for row in rows if row.failed and not row.failed.endswith("not run")]),
-	        ("Without a peak in some runs, whose stress had not fallen when they ended", [row for row in rows if row.rising])
-	):
+	for words, told in (("Not all seeds were run (yet)", [
+		row for row in rows if row.failed.endswith("not run")
+	]), ("Failed, see the table", [row for row in rows if row.failed and not row.failed.endswith("not run")]),
+				("Without a peak in some runs, whose stress had not fallen when they ended", [row for row in rows if row.rising])):
 		if told:
 			warnings.append(f"{words}: " + "; ".join(f"{row.model} {row.label}" for row in told) + ".")
 	return lines[:max(0, most - len(warnings))] + warnings
@@ -169,7 +175,9 @@ def _bestFor(blocks, name, known, limits):
 		elif row: told.append(f"{_percent(limit)}: {row.label} ({row.cpu:.2g} CPU s, {_percent(row.rms('reference', name))})")
 		else:
 			row = min(compared, key=error)
-			told.append(f"{_percent(limit)}: none of the settings tried, the best is {row.label} ({row.cpu:.2g} CPU s, {_percent(row.rms('reference', name))})")
+			told.append(
+				f"{_percent(limit)}: none of the settings tried, the best is {row.label} ({row.cpu:.2g} CPU s, {_percent(row.rms('reference', name))})"
+			)
 		if unknown > limit: break
 	return f"For the {shortNames[name]} within " + "; ".join(told) + "."
 
@@ -182,12 +190,18 @@ def _worstKnob(rows, peak):
 		base = max((base for base in plain if row.label.startswith(base.label + " ")), key=lambda base: len(base.label), default=None)
 		if base and not math.isnan(rms(row)):
 			change = abs(math.log(max(rms(row), 1e-4) / max(rms(base), 1e-4)))
-			said[row.knob] = max(said.get(row.knob, (-1, "")), (change, f"{row.label} {_percent(rms(row))} ({row.cpu:.2g} s) instead of {_percent(rms(base))} ({base.cpu:.2g} s)"))
+			said[row.knob] = max(
+				said.get(row.knob, (-1, "")),
+				(change, f"{row.label} {_percent(rms(row))} ({row.cpu:.2g} s) instead of {_percent(rms(base))} ({base.cpu:.2g} s)")
+			)
 	return "What moves it: " + "; ".join(text for change, text in sorted(said.values(), reverse=True)[:4]) + "." if said else None
 
 
 def _laboratory(row, names):
-	said = [f"{shortNames[name]} {_signed(row.laboratory[name].mean)} ± {_percent(row.laboratory[name].scatter)}" for name in names if row.laboratory.get(name)]
+	said = [
+		f"{shortNames[name]} {_signed(row.laboratory[name].mean)} ± {_percent(row.laboratory[name].scatter)}" for name in names
+		if row.laboratory.get(name)
+	]
 	return ", ".join(said)
 
 
@@ -209,11 +223,14 @@ def _digits(number, sign=""):
 def asRecords(rows):
 	"""The table as flat dictionaries, one a row, for a CSV file."""
 	for row in rows:
-		record = {"case": row.case, "model": row.model, "knob": row.knob, "setting": row.label, "seeds": row.seeds, "cpu_s": row.cpu, "reference": row.isReference}
+		record = {
+			"case": row.case, "model": row.model, "knob": row.knob, "setting": row.label, "seeds": row.seeds, "cpu_s": row.cpu,
+			"reference": row.isReference
+		}
 		for name, (value, scatter) in row.values.items():
 			record[name], record[f"{name} scatter"] = value, scatter
 			for kind in ("laboratory", "reference"):
-				for part, number in zip(("error", "error scatter", "error rms"), getattr(row, kind).get(name) or (math.nan,) * 3):
+				for part, number in zip(("error", "error scatter", "error rms"), getattr(row, kind).get(name) or (math.nan, ) * 3):
 					record[f"{name} {kind} {part}"] = number
 		yield {**record, "without peak": row.rising, "failed": row.failed}
 
@@ -222,15 +239,22 @@ def asMarkdown(rows, names):
 	"""The table: for each quantity the error against the laboratory and against the reference, mean ± scatter; * is on the Pareto front of
 	its case and model family (peak against reference)."""
 	front = {
-	        id(row)
-	        for case in {row.case for row in rows} for family in (True, False)
-	        for row in _front([r for r in rows if r.case == case and (r.model == "blocks") == family and not r.isReference and r.knob not in specimenKnobs], names[0])
+		id(row) for case in {row.case for row in rows} for family in (True, False)
+		for row in _front([r for r in rows
+					if r.case == case and (r.model == "blocks") == family and not r.isReference and r.knob not in specimenKnobs], names[0])
 	}
 	head = ["case", "model", "setting", "seeds", "CPU s"] + [f"{shortNames[name]}, {kind}" for name in names for kind in ("laboratory", "reference")]
 	lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
 	for row in rows:
-		cells = [row.case, row.model, row.label + (" *" if id(row) in front else "") + (" (reference)" if row.isReference else "") + (f", {row.rising} without peak" if row.rising else ""), str(row.seeds), "-" if math.isnan(row.cpu) else f"{row.cpu:.2g}"]
-		cells += [f"{_signed(error.mean)} ± {_percent(error.scatter)}" if error else "" for name in names for error in (row.laboratory.get(name), row.reference.get(name))]
+		cells = [
+			row.case, row.model, row.label + (" *" if id(row) in front else "") + (" (reference)" if row.isReference else "") +
+			(f", {row.rising} without peak" if row.rising else ""),
+			str(row.seeds), "-" if math.isnan(row.cpu) else f"{row.cpu:.2g}"
+		]
+		cells += [
+			f"{_signed(error.mean)} ± {_percent(error.scatter)}" if error else "" for name in names
+			for error in (row.laboratory.get(name), row.reference.get(name))
+		]
 		lines.append("| " + " | ".join(cells) + " |" + (f" failed: {row.failed}" if row.failed and not row.seeds else ""))
 		if row.failed: lines[-1] = lines[-1].replace(f"| {row.seeds} |", f"| {row.seeds} ({row.failed}) |", 1).removesuffix(f" failed: {row.failed}")
 	return "\n".join(lines)

@@ -7,8 +7,8 @@ import probes
 from probes import abiprobe
 
 examples = [
-        Sphere, Aabb, State, FrictMat, FrictPhys, ScGeom, Body, Interaction, Cell, ForceEngine, PyRunner, GlobalStiffnessTimeStepper, InteractionLoop,
-        Bo1_Sphere_Aabb
+	Sphere, Aabb, State, FrictMat, FrictPhys, ScGeom, Body, Interaction, Cell, ForceEngine, PyRunner, GlobalStiffnessTimeStepper, InteractionLoop,
+	Bo1_Sphere_Aabb
 ]
 counter = 0
 
@@ -30,7 +30,7 @@ def changed(value):
 
 
 made = {'material': FrictMat, 'shape': Sphere, 'state': State, 'bound': Aabb, 'geom': ScGeom, 'phys': FrictPhys}
-recomputed = {'prevHSize'}  # by Cell's postLoad
+recomputed = {'prevHSize'} # by Cell's postLoad
 
 
 @pytest.mark.parametrize('example', examples, ids=lambda c: c.__name__)

@@ -28,7 +28,7 @@ def test_wrong_arguments():
 
 def test_flags():
 	s = ToyShape()
-	assert s.loads == 0  # no keywords, nothing to complete
+	assert s.loads == 0 # no keywords, nothing to complete
 	s.edge = 2
 	s.watched = (1, 2, 3)
 	assert s.loads == 2 and s.watched == Vector3(1, 2, 3)
@@ -77,14 +77,14 @@ def scene():
 		b.state.pos, b.state.mass, b.state.inertia = (i, .01 * i, 0), 1, (1, 1, 1)
 		O.bodies.append(b)
 	O.engines = [
-	        ForceResetter(),
-	        InsertionSortCollider([Bo1_ToyShape_Aabb(label='bound')], verletDist=0),
-	        InteractionLoop([Ig2_ToyShape_ToyShape_ToyGeom(margin=.5)], [Ip2_ToyMat_ToyMat_ToyPhys()], [Law2_ToyGeom_ToyPhys_Toy()]),
-	        ToyEngine(),
-	        ToyPartialEngine(ids=[1, 2]),
-	        ToyPeriodicEngine(iterPeriod=7),
-	        ToyTimeStepper(active=False),
-	        NewtonIntegrator(damping=0)
+		ForceResetter(),
+		InsertionSortCollider([Bo1_ToyShape_Aabb(label='bound')], verletDist=0),
+		InteractionLoop([Ig2_ToyShape_ToyShape_ToyGeom(margin=.5)], [Ip2_ToyMat_ToyMat_ToyPhys()], [Law2_ToyGeom_ToyPhys_Toy()]),
+		ToyEngine(),
+		ToyPartialEngine(ids=[1, 2]),
+		ToyPeriodicEngine(iterPeriod=7),
+		ToyTimeStepper(active=False),
+		NewtonIntegrator(damping=0)
 	]
 	O.dt = 1e-3
 
@@ -105,11 +105,11 @@ def test_saved_scene_continues_bit_by_bit(ending, tmp_path):
 	else: O.load(file)
 	shapes = [b.shape for b in O.bodies]
 	assert [(s.edge, s.corners, s.name, s.matrix) for s in shapes] == [(1.1, [Vector3(0, 0, i)], 'n%d' % i, Matrix3(*range(9))) for i in range(4)]
-	assert [(s.parts, s.memory, s.loads) for s in shapes] == [(1, 7, 1)] * 4  # hidden is kept, noSave is not, postLoad ran once
+	assert [(s.parts, s.memory, s.loads) for s in shapes] == [(1, 7, 1)] * 4 # hidden is kept, noSave is not, postLoad ran once
 	assert [b.state.heat for b in O.bodies] == [0, 1, 2, 3]
 	assert shapes[0].holder.numbers == [.1, .2, 1 / 3]
 	shapes[0].holder.numbers = [9]
-	assert shapes[3].holder.numbers == [9]  # still the same object
+	assert shapes[3].holder.numbers == [9] # still the same object
 	assert shapes[0].material.cohesion == O.materials[0].cohesion == 7
 	assert (O.engines[2].geomDispatcher.functors[0].margin, O.engines[4].ids, O.engines[6].active) == (.5, [1, 2], False)
 

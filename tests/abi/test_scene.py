@@ -24,11 +24,11 @@ def row():
 	for x in 0, 1, 2:
 		O.bodies.append(cube((x, 0, 0)))
 	O.engines = [
-	        ForceResetter(),
-	        InsertionSortCollider([Bo1_ToyShape_Aabb()], verletDist=0),
-	        InteractionLoop([Ig2_ToyShape_ToyShape_ToyGeom()], [Ip2_ToyMat_ToyMat_ToyPhys()], [Law2_ToyGeom_ToyPhys_Toy()]),
-	        ToyEngine(label='toy'),
-	        NewtonIntegrator(damping=0)
+		ForceResetter(),
+		InsertionSortCollider([Bo1_ToyShape_Aabb()], verletDist=0),
+		InteractionLoop([Ig2_ToyShape_ToyShape_ToyGeom()], [Ip2_ToyMat_ToyMat_ToyPhys()], [Law2_ToyGeom_ToyPhys_Toy()]),
+		ToyEngine(label='toy'),
+		NewtonIntegrator(damping=0)
 	]
 	O.dt = 1e-3
 	yield
@@ -62,7 +62,7 @@ def test_trajectory(row):
 	gap, omega2 = -.1, 1e3
 	x, v = 0., 0.
 	O.run(50, True)
-	for _ in range(50):  # leapfrog, as in NewtonIntegrator; the law pulls body 0 by kn * gap
+	for _ in range(50): # leapfrog, as in NewtonIntegrator; the law pulls body 0 by kn * gap
 		v += O.dt * omega2 * (1 - x - 1.1)
 		x += O.dt * v
 	assert O.bodies[0].state.pos[0] == pytest.approx(x, rel=1e-12)
@@ -86,13 +86,13 @@ def test_forces(row):
 
 def test_energy(row):
 	O.trackEnergy = True
-	assert abiprobe.addedEnergy('heat', .5, 1000) == 500  # sums of halves are exact
+	assert abiprobe.addedEnergy('heat', .5, 1000) == 500 # sums of halves are exact
 	assert abiprobe.addedEnergy('work', .25, 100) == 525
 	assert dict(O.energy.items()) == {'heat': 500, 'work': 25}
 	abiprobe.setEnergy('heat', 3)
 	assert O.energy['heat'] == 3
 	O.run(2, True)
-	assert O.energy['toy'] == 3  # reset in every step
+	assert O.energy['toy'] == 3 # reset in every step
 	O.trackEnergy = False
 
 
@@ -114,7 +114,7 @@ def test_engines(row):
 	O.engines = [ToyTimeStepper(timeStepUpdateInterval=2)]
 	O.resetTime()
 	O.run(4, True)
-	assert O.dt == 3e-3  # set in steps 0 and 2
+	assert O.dt == 3e-3 # set in steps 0 and 2
 	O.engines[0].active = False
 	O.run(4, True)
 	assert O.dt == 3e-3
@@ -134,7 +134,7 @@ def test_timing(row):
 def test_registers():
 	assert abiprobe.knowsPluginClass('NewtonIntegrator') and abiprobe.knowsPluginClass('ToyShape')
 	assert 'Sphere' in abiprobe.dynamicType(Sphere()) and 'ToyShape' in abiprobe.dynamicType(ToyShape())
-	probes.library.yadeRegisterNewClasses()  # nothing new: does nothing
+	probes.library.yadeRegisterNewClasses() # nothing new: does nothing
 	from yade import wrapper
 	assert wrapper.ToyShape is ToyShape
 

@@ -13,9 +13,9 @@ import pytest
 folder = os.environ['YADE_LIBRARY_DIR']
 probe = os.environ['ABIPROBE']
 toys = {
-        'ToyShape': 'Shape', 'ToyState': 'State', 'ToyMat': 'FrictMat', 'ToyGeom': 'IGeom', 'ToyPhys': 'FrictPhys', 'ToyEngine': 'GlobalEngine',
-        'ToyPartialEngine': 'PartialEngine', 'ToyPeriodicEngine': 'PeriodicEngine', 'ToyTimeStepper': 'TimeStepper', 'Bo1_ToyShape_Aabb': 'BoundFunctor',
-        'Ig2_ToyShape_ToyShape_ToyGeom': 'IGeomFunctor', 'Ip2_ToyMat_ToyMat_ToyPhys': 'IPhysFunctor', 'Law2_ToyGeom_ToyPhys_Toy': 'LawFunctor'
+	'ToyShape': 'Shape', 'ToyState': 'State', 'ToyMat': 'FrictMat', 'ToyGeom': 'IGeom', 'ToyPhys': 'FrictPhys', 'ToyEngine': 'GlobalEngine',
+	'ToyPartialEngine': 'PartialEngine', 'ToyPeriodicEngine': 'PeriodicEngine', 'ToyTimeStepper': 'TimeStepper', 'Bo1_ToyShape_Aabb': 'BoundFunctor',
+	'Ig2_ToyShape_ToyShape_ToyGeom': 'IGeomFunctor', 'Ip2_ToyMat_ToyMat_ToyPhys': 'IPhysFunctor', 'Law2_ToyGeom_ToyPhys_Toy': 'LawFunctor'
 }
 recorded = {}
 with open(os.path.join(os.path.dirname(__file__), 'vtables.txt')) as file:
@@ -33,7 +33,7 @@ def shortName(mangled, demangled, className):
 	"""`getClassName` if the class fills the slot, `Base::getClassName` if a base does; overloads carry their number of arguments."""
 	thunk, name = re.fullmatch(r'(non-virtual thunk to )?yade::(.*)', demangled).groups()
 	while '<' in name:
-		name = re.sub(r'<[^<>]*>', '', name)  # template arguments
+		name = re.sub(r'<[^<>]*>', '', name) # template arguments
 	owner, function, arguments = re.fullmatch(r'(\w+)::([~\w]+)(?:\[abi:cxx11\])?\((.*)\)(?: const)?', name).groups()
 	if function.startswith('~'): function = '~delete' if 'D0Ev' in mangled else '~'
 	if function in ('go', 'goReverse'): function += str(arguments.count(',') + 1)
@@ -56,9 +56,9 @@ def tables(path, wanted):
 	result = {}
 	for name, (start, size) in symbols.items():
 		functions = []
-		for address in range(start + 16, start + size, 8):  # after the offset to the top and the type information
+		for address in range(start + 16, start + size, 8): # after the offset to the top and the type information
 			function = slots.get(address)
-			if function is None: functions.append('and')  # the secondary table's offset to the top
+			if function is None: functions.append('and') # the secondary table's offset to the top
 			elif not function.startswith('_ZTI'): functions.append(shortName(function, demangled[function], name))
 		result[name] = functions
 	return result
@@ -67,7 +67,7 @@ def tables(path, wanted):
 @pytest.fixture(scope='module')
 def installed():
 	result = {}
-	for library in 'libpkg_dem.so', 'libpkg_common.so', 'libyade.so':  # the core has the last word
+	for library in 'libpkg_dem.so', 'libpkg_common.so', 'libyade.so': # the core has the last word
 		result.update(tables(os.path.join(folder, library), recorded))
 	return result
 
@@ -93,7 +93,7 @@ def compiled():
 @pytest.mark.parametrize('toy', toys)
 def test_vtable_by_our_headers(compiled, toy):
 	ours, yades = withoutOwners(compiled[toy]), withoutOwners(recorded[toys[toy]])
-	if 'and' in yades:  # a functor's own go stands behind the inherited part of the primary table
+	if 'and' in yades: # a functor's own go stands behind the inherited part of the primary table
 		secondary = yades.index('and')
 		assert ours[:secondary] == yades[:secondary]
 		ours, yades = ours[ours.index('and'):], yades[secondary:]

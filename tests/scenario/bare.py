@@ -15,6 +15,7 @@ def modules(*names):
 	sys.modules["yadeblocks"] = types.ModuleType("yadeblocks")
 	sys.modules["yadeblocks"].__path__ = [str(package)]
 	found = [importlib.import_module("yadeblocks." + name) for name in names]
-	for name in ours(): del sys.modules[name]
+	for name in ours():
+		del sys.modules[name]
 	sys.modules.update(before)
 	return found

@@ -20,7 +20,8 @@ def test_kernelKnowsNoYade(path):
 def test_kernelKnowsNoAdapter():
 	adapters = {path.name for path in (house / 'pkg/blocks').glob('*.hpp')}
 	for path in (house / 'pkg/blocks/kernel').iterdir():
-		assert not adapters & {Path(name.strip('<>"')).name for name in includes(path) if 'kernel/' not in name} - {p.name for p in path.parent.iterdir()}, path
+		assert not adapters & {Path(name.strip('<>"')).name
+					for name in includes(path) if 'kernel/' not in name} - {p.name for p in path.parent.iterdir()}, path
 
 
 def test_noStrangeTopLevel():

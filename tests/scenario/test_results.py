@@ -35,14 +35,15 @@ def column():
 	position[4:] += (1e-6, 2e-6) # unit and platen have moved away from the mortar
 	stress = np.array([(5., 1., 0.), (1., 2., 3.), (0., 0., 0.), (-4., -4., 0.)])
 	return SimpleNamespace(
-	        thickness=0.05, reference=reference, position=position, velocity=np.full((12, 2), (0.1, 0.2)), zoneNodes=zones,
-	        firstNode=np.array([0, 4, 8, 12]), firstZone=np.array([0, 2, 4, 4]), firstEdge=np.array([0, 4, 8, 12]),
-	        blockMaterial=np.array([0, 1, 2], np.int32), materialLabels=["mortar", "unit", "platen"], edgeNodes=edges,
-	        segmentNodes=np.array([(2, 3, 4, 5), (6, 7, 8, 9)], np.int32), segmentBlocks=np.array([(0, 1), (1, 2)], np.int32),
-	        segmentParameters=np.array([(0., 1., 1., 0.), (0., 1 / 3, 1., 2 / 3)]), segmentArea=np.array([75e-6, 25e-6]),
-	        pointOpening=np.array([1., 2., 3., 4.]), pointSlip=np.array([5., 6., 7., 8.]), pointSigma=np.array([9., 10., 11., 12.]),
-	        pointTau=np.array([13., 14., 15., 16.]), pointStatus=np.array([1, 2, 3, 3], np.uint8), zoneStress=lambda: stress,
-	        cornerTriangles={2: np.array([(8, 9, 10), (8, 10, 11)], np.int32)}.get
+		thickness=0.05, reference=reference, position=position, velocity=np.full((12, 2),
+												(0.1, 0.2)), zoneNodes=zones, firstNode=np.array([0, 4, 8, 12]),
+		firstZone=np.array([0, 2, 4, 4]), firstEdge=np.array([0, 4, 8, 12]), blockMaterial=np.array([0, 1, 2], np.int32), materialLabels=[
+			"mortar", "unit", "platen"
+		], edgeNodes=edges, segmentNodes=np.array([(2, 3, 4, 5), (6, 7, 8, 9)], np.int32), segmentBlocks=np.array([(0, 1), (1, 2)], np.int32),
+		segmentParameters=np.array([(0., 1., 1., 0.), (0., 1 / 3, 1., 2 / 3)]), segmentArea=np.array([75e-6, 25e-6]), pointOpening=np.array([
+			1., 2., 3., 4.
+		]), pointSlip=np.array([5., 6., 7., 8.]), pointSigma=np.array([9., 10., 11., 12.]), pointTau=np.array([13., 14., 15., 16.]),
+		pointStatus=np.array([1, 2, 3, 3], np.uint8), zoneStress=lambda: stress, cornerTriangles={2: np.array([(8, 9, 10), (8, 10, 11)], np.int32)}.get
 	)
 
 
@@ -67,23 +68,23 @@ def test_parametersTakeTheTypesOfTheirDefaults():
 
 
 @pytest.mark.parametrize(
-        "word, line", [
-                ("lloid=3", "shear has no parameter lloid (did you mean lloyd?); known: seed seeds"),
-                ("seed", "shear: arguments must have the form key=value, got seed"),
-                ("seed=1.5", "shear.seed must be a whole number, got 1.5"),
-                ("seed=nan", "shear.seed must be a whole number, got nan"),
-                ("size=two", "shear.size must be a number, got two"),
-                ("size=nan", "shear.size must be a number, got nan"),
-                ("size=inf", "shear.size must be positive, got inf"),
-                ("size=-1e-3", "shear.size must be positive, got -0.001"),
-                ("seeds=0", "shear.seeds must be at least 1, got 0"),
-                ("alpha=1", "shear.alpha must lie in [0, 1), got 1.0"),
-                ("sigma=-1", "shear.sigma must not be negative, got -1.0"),
-                ("case=TT9", "shear.case must be one of TT1, TT2, got 'TT9'"),
-                ("plane=stres", "shear.plane must be one of strain, stress, got 'stres'"),
-                ("energy=maybe", "shear.energy must be true or false, got maybe"),
-                ("tag=../x", "shear.tag must consist of letters"),
-        ]
+	"word, line", [
+		("lloid=3", "shear has no parameter lloid (did you mean lloyd?); known: seed seeds"),
+		("seed", "shear: arguments must have the form key=value, got seed"),
+		("seed=1.5", "shear.seed must be a whole number, got 1.5"),
+		("seed=nan", "shear.seed must be a whole number, got nan"),
+		("size=two", "shear.size must be a number, got two"),
+		("size=nan", "shear.size must be a number, got nan"),
+		("size=inf", "shear.size must be positive, got inf"),
+		("size=-1e-3", "shear.size must be positive, got -0.001"),
+		("seeds=0", "shear.seeds must be at least 1, got 0"),
+		("alpha=1", "shear.alpha must lie in [0, 1), got 1.0"),
+		("sigma=-1", "shear.sigma must not be negative, got -1.0"),
+		("case=TT9", "shear.case must be one of TT1, TT2, got 'TT9'"),
+		("plane=stres", "shear.plane must be one of strain, stress, got 'stres'"),
+		("energy=maybe", "shear.energy must be true or false, got maybe"),
+		("tag=../x", "shear.tag must consist of letters"),
+	]
 )
 def test_badInputIsRefusedInOneLine(word, line):
 	with pytest.raises(scenario.ParameterError) as error:
@@ -114,14 +115,16 @@ def test_commandLine(monkeypatch, capsys):
 @pytest.mark.skipif(not shutil.which("yade"), reason="needs YADE")
 def test_parametersUnderYade(tmp_path):
 	"""Script arguments, exit code and threads as YADE has them, and a table line as yade-batch passes it on."""
-	(tmp_path / "shear.py").write_text(f"""if True:
+	(tmp_path / "shear.py").write_text(
+		f"""if True:
 		import sys, types
 		package = sys.modules["yadeblocks"] = types.ModuleType("yadeblocks")
 		package.__path__ = [{str(package)!r}]
 		from yadeblocks import scenario
 		p = scenario.parameters({{**scenario.commonParameters(), "case": "TT1"}}, {{"case": ("TT1", "TT2")}})
 		scenario.waitIfBatch()
-		print(p.scenario, p.folder, p.case, p.seed, p.alpha, p.threads)""")
+		print(p.scenario, p.folder, p.case, p.seed, p.alpha, p.threads)"""
+	)
 	(tmp_path / "table").write_text("case seed alpha !THREADS\nTT2 3 * 1\n'TT1' 4 0.5 1\n")
 
 	def yade(*words, batch=""):
@@ -207,7 +210,8 @@ def test_resultOfSeveralSeeds(tmp_path, monkeypatch, capsys):
 	assert found["peak"].error == pytest.approx(0.125)
 	result = json.loads((found.write() / "result.json").read_text())
 	assert result["quantities"][0]["scatter"] == pytest.approx(math.sqrt(0.0325)) and result["cost"]["steps"] == 2000
-	assert result["quality"]["half_rate_change"] == pytest.approx(-0.02 * (1 / 2 + 1 / 3 + 1 / 4) / 3) and result["quality"]["unbalanced_ratio_max"] == 0.004 # the mean; the worst of three
+	assert result["quality"]["half_rate_change"] == pytest.approx(-0.02 * (1 / 2 + 1 / 3 + 1 / 4) / 3
+									) and result["quality"]["unbalanced_ratio_max"] == 0.004 # the mean; the worst of three
 	assert "0.45 ± 0.18" in capsys.readouterr().out
 
 	import pandas
@@ -216,7 +220,10 @@ def test_resultOfSeveralSeeds(tmp_path, monkeypatch, capsys):
 	assert list(curve.stress_MPa) == [0, 0.3, 0, 0.4, 0, 0.65]
 
 
-@pytest.mark.parametrize("stress, peak", [([0, 1, 0.94], True), ([0, 1, 0.96], False), ([0, 1, 0.5, 0.99], True), ([0, 0.9, 0.5, 1], False), ([0], False), ([math.nan, 1, 0.5], True)])
+@pytest.mark.parametrize(
+	"stress, peak", [([0, 1, 0.94], True), ([0, 1, 0.96], False), ([0, 1, 0.5, 0.99], True), ([0, 0.9, 0.5, 1], False), ([0], False),
+				([math.nan, 1, 0.5], True)]
+)
 def test_aPeakIsWhatStressFallsFrom(stress, peak):
 	run = results.Run(1)
 	run.curve(displacement_mm=list(range(len(stress))), stress_MPa=stress)
@@ -341,10 +348,10 @@ def test_picturesAreDrawn(tmp_path):
 	curves = pandas.DataFrame(dict(seed=[1, 1, 1, 2, 2, 2], u=[0, 1, 2] * 2, stress=[0, 3, 1, 0, 4, 1.]))
 	references = [pictures.Reference("line", 3.5), pictures.Reference("band", (3, 4)), pictures.Reference("curve", [0, 3], [0, 1])]
 	drawn = [
-	        pictures.drawCurve(tmp_path / "curve.png", curves, "u", "stress", references=references),
-	        pictures.drawCurve(tmp_path / "one.png", curves[:3], "u", "stress", labels=("u [m]", "stress [Pa]")),
-	        pictures.drawCracks(tmp_path / "cracks.png", column()),
-	        pictures.drawCracks(tmp_path / "part.png", column(), magnification=10, window=(0, 0, 2e-3, 1e-3)),
+		pictures.drawCurve(tmp_path / "curve.png", curves, "u", "stress", references=references),
+		pictures.drawCurve(tmp_path / "one.png", curves[:3], "u", "stress", labels=("u [m]", "stress [Pa]")),
+		pictures.drawCracks(tmp_path / "cracks.png", column()),
+		pictures.drawCracks(tmp_path / "part.png", column(), magnification=10, window=(0, 0, 2e-3, 1e-3)),
 	]
 	model = column()
 	model.pointStatus[:] = 0

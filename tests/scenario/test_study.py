@@ -18,8 +18,9 @@ import pytest
 import bare
 
 package = bare.package
-calibration, curves, jobs, packing, study, tradeoff, tradeoffpicture = bare.modules("calibration", "curves", "jobs", "packing", "study", "tradeoff", "tradeoffpicture")
-
+calibration, curves, jobs, packing, study, tradeoff, tradeoffpicture = bare.modules(
+	"calibration", "curves", "jobs", "packing", "study", "tradeoff", "tradeoffpicture"
+)
 
 # ---- curves
 
@@ -77,8 +78,9 @@ def test_expectationsFollowThePrecompression():
 @pytest.fixture
 def tree(tmp_path):
 	for name, text in {
-	        "py/yadeblocks/__init__.py": "from . import _plugin\n", "py/yadeblocks/_plugin.py": "", "py/yadeblocks/results.py": "from .export import pairName\n",
-	        "py/yadeblocks/export.py": "import numpy\n", "py/yadeblocks/unused.py": "", "scripts/mine.py": "from yadeblocks.results import Results\nimport os\n"
+		"py/yadeblocks/__init__.py": "from . import _plugin\n", "py/yadeblocks/_plugin.py": "",
+		"py/yadeblocks/results.py": "from .export import pairName\n", "py/yadeblocks/export.py": "import numpy\n", "py/yadeblocks/unused.py": "",
+		"scripts/mine.py": "from yadeblocks.results import Results\nimport os\n"
 	}.items():
 		(tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
 		(tmp_path / name).write_text(text)
@@ -179,9 +181,9 @@ def test_changedCodeIsRunAnew(house, changed):
 	assert started(house).result(job) is None
 	started(house).do([job])
 	assert calls(house) == 2
-	started(house, pluginFree=("tension",)).do([job])
+	started(house, pluginFree=("tension", )).do([job])
 	(house / "plugin.so").write_bytes(b"another plugin")
-	assert started(house, pluginFree=("tension",)).result(job) # which does not depend on it
+	assert started(house, pluginFree=("tension", )).result(job) # which does not depend on it
 
 
 def test_changedYadeIsRunAnew(house, monkeypatch):
@@ -192,7 +194,10 @@ def test_changedYadeIsRunAnew(house, monkeypatch):
 	assert started(house).result(job) is None
 
 
-@pytest.mark.parametrize("settings, reason", [({"refuse": 1}, "exit code 1: mine.refuse must not be given"), ({"silent": 1}, "left no result (FileNotFoundError): (said nothing)")])
+@pytest.mark.parametrize(
+	"settings, reason", [({"refuse": 1}, "exit code 1: mine.refuse must not be given"),
+				({"silent": 1}, "left no result (FileNotFoundError): (said nothing)")]
+)
 def test_failuresAreKeptWithTheirReason(house, settings, reason):
 	job = jobs.Job("tension", settings, 1)
 	started(house).do([job])
@@ -266,7 +271,9 @@ def test_runsWithoutPeakAreTold():
 	results = {seed: {**result(0.4), "quality": {"without_peak": [seed] * (seed > 1)}} for seed in (1, 2, 3)}
 	row = tradeoff.summarise("tension", "cpm", "steps", "5k steps", tradeoff.quantities["tension"], results, {"peak_tensile_stress": 0.35}, {})
 	assert row.rising == 2
-	assert any(line.startswith("Without a peak in some runs") and "cpm 5k steps" in line for line in tradeoff.reading([row], tradeoff.quantities["tension"]))
+	assert any(
+		line.startswith("Without a peak in some runs") and "cpm 5k steps" in line for line in tradeoff.reading([row], tradeoff.quantities["tension"])
+	)
 	assert not any("against the laboratory" in line for line in tradeoff.reading([row], tradeoff.quantities["tension"])) # what is no peak is no best result
 	assert "5k steps, 2 without peak" in tradeoff.asMarkdown([row], tradeoff.quantities["tension"])
 
@@ -278,13 +285,25 @@ def test_pareto():
 
 
 def rowOf(label, cpu, rms, model="blocks", knob="steps", failed="", isReference=False, laboratory=0.1):
-	error = lambda value: {"peak_tensile_stress": tradeoff.Error(value, value / 2, value, 5), "joint_stiffness": tradeoff.Error(0.5 * value, 0.0, 0.5 * value, 5)}
-	return tradeoff.Row("tension", model, knob, label, 5, cpu, {"peak_tensile_stress": (0.35, 0.01), "joint_stiffness": (36.0, 0.1)}, error(laboratory),
-		{} if isReference else error(rms), failed, isReference)
+	error = lambda value: {
+		"peak_tensile_stress": tradeoff.Error(value, value / 2, value, 5), "joint_stiffness": tradeoff.Error(0.5 * value, 0.0, 0.5 * value, 5)
+	}
+	return tradeoff.Row(
+		"tension", model, knob, label, 5, cpu, {"peak_tensile_stress": (0.35, 0.01), "joint_stiffness": (36.0, 0.1)}, error(laboratory),
+		{} if isReference else error(rms), failed, isReference
+	)
 
 
-study4 = [rowOf("2k steps", 0.2, 0.12), rowOf("5k steps", 0.5, 0.04), rowOf("lucky", 0.4, 0.001, failed="exit code 1"), rowOf("20k steps", 2, 0.015),
-	rowOf("80k steps", 8, 0, isReference=True), rowOf("20k steps alpha 0.8", 2, 0.2, knob="alpha"), rowOf("5k steps 9 mm", 0.01, 0.001, knob="size"), rowOf("20k steps", 20, 0.01, model="jcfpm")]
+study4 = [
+	rowOf("2k steps", 0.2, 0.12),
+	rowOf("5k steps", 0.5, 0.04),
+	rowOf("lucky", 0.4, 0.001, failed="exit code 1"),
+	rowOf("20k steps", 2, 0.015),
+	rowOf("80k steps", 8, 0, isReference=True),
+	rowOf("20k steps alpha 0.8", 2, 0.2, knob="alpha"),
+	rowOf("5k steps 9 mm", 0.01, 0.001, knob="size"),
+	rowOf("20k steps", 20, 0.01, model="jcfpm")
+]
 
 
 def test_cheapestNeedsAllSeeds():
@@ -319,14 +338,25 @@ def test_readingAgainstAReferenceThatMoves():
 
 
 def test_readingKeepsWhatFailed():
-	many = study4 + [moving(0.004), rowOf("tension's", 1, 1, model="cpm", knob="one set"), rowOf("slippery", 1, 1, model="cpm", knob="low friction"), rowOf("1k steps", 0.1, 0.5, failed="5 of 5 not run"), rowOf("3k steps", 0.1, 0.5)._replace(rising=1)]
+	many = study4 + [
+		moving(0.004),
+		rowOf("tension's", 1, 1, model="cpm", knob="one set"),
+		rowOf("slippery", 1, 1, model="cpm", knob="low friction"),
+		rowOf("1k steps", 0.1, 0.5, failed="5 of 5 not run"),
+		rowOf("3k steps", 0.1, 0.5)._replace(rising=1)
+	]
 	lines = tradeoff.reading(many, tradeoff.quantities["tension"], most=5)
-	assert len(lines) == 5 and [line.split(":")[0] for line in lines[2:]] == ["Not all seeds were run (yet)", "Failed, see the table", "Without a peak in some runs, whose stress had not fallen when they ended"]
+	assert len(lines) == 5 and [line.split(":")[0] for line in lines[2:]] == [
+		"Not all seeds were run (yet)", "Failed, see the table", "Without a peak in some runs, whose stress had not fallen when they ended"
+	]
 	assert "3k steps" not in lines[1] # nor is it recommended
 
 
 def test_readingOfWhatIsNotThere():
-	lines = tradeoff.reading([rowOf("2k steps", 0.2, 0, isReference=True), rowOf("5k steps", math.nan, math.nan, failed="5 of 5 not run")._replace(reference={}, laboratory={})], tradeoff.quantities["tension"])
+	lines = tradeoff.reading([
+		rowOf("2k steps", 0.2, 0, isReference=True),
+		rowOf("5k steps", math.nan, math.nan, failed="5 of 5 not run")._replace(reference={}, laboratory={})
+	], tradeoff.quantities["tension"])
 	assert lines == ["Laboratory: the slow run gives peak +10 % ± 5 %, stiffness +5 % ± 0 %.", "Not all seeds were run (yet): blocks 5k steps."]
 
 
@@ -336,7 +366,9 @@ def test_tables(tmp_path):
 	assert tradeoff.asMarkdown(study4 + other, names).count(" * |") == 3 + 2 + 1 # a front for each case, and for the spheres
 	text = tradeoff.asMarkdown(study4, names)
 	assert "lucky *" not in text # a run failed
-	assert text.count("\n") == len(study4) + 1 and "| 2k steps * |" in text and "alpha 0.8 *" not in text and "80k steps (reference)" in text and "5 (exit code 1)" in text
+	assert text.count(
+		"\n"
+	) == len(study4) + 1 and "| 2k steps * |" in text and "alpha 0.8 *" not in text and "80k steps (reference)" in text and "5 (exit code 1)" in text
 	records = list(tradeoff.asRecords(study4))
 	assert records[0]["peak_tensile_stress reference error rms"] == 0.12 and math.isnan(records[4]["joint_stiffness reference error"])
 	assert len({tuple(record) for record in records}) == 1 # the same columns in all rows
@@ -349,7 +381,9 @@ def test_tables(tmp_path):
 
 def test_calibration():
 	evaluate = lambda q: {"stiffness": 3e-8 * q["young"]**0.8, "peak": 0.4e-6 * q["tension"] * (q["young"] / 1e9)**0.1} # coupled and not linear
-	found = calibration.calibrate(evaluate, {"young": 1e9, "tension": 1e6}, {"stiffness": 1.0, "peak": 0.35}, {"stiffness": "young", "peak": "tension"}, tolerance=0.005, rounds=8)
+	found = calibration.calibrate(
+		evaluate, {"young": 1e9, "tension": 1e6}, {"stiffness": 1.0, "peak": 0.35}, {"stiffness": "young", "peak": "tension"}, tolerance=0.005, rounds=8
+	)
 	assert found.misfit({"stiffness": 1.0, "peak": 0.35}) <= 0.005 and found.rounds < 8
 	assert evaluate(found.parameters) == found.measured
 
@@ -367,7 +401,9 @@ def test_calibrationSurvivesNothing():
 	assert [q["tension"] for q in asked] == [1, 2, 4] and found.rounds == 3
 
 
-@pytest.mark.parametrize("text, same", [("\"\"\"Other words.\"\"\"\nsteps = dict(a = 1)  # and a remark\n", True), ("\"\"\"Words.\"\"\"\nsteps = dict(a=2)\n", False)])
+@pytest.mark.parametrize(
+	"text, same", [("\"\"\"Other words.\"\"\"\nsteps = dict(a = 1)  # and a remark\n", True), ("\"\"\"Words.\"\"\"\nsteps = dict(a=2)\n", False)]
+)
 def test_meaningIsWithoutComments(tmp_path, text, same):
 	a, b = tmp_path / "a.py", tmp_path / "b.py"
 	a.write_text('"""Words."""\nsteps = dict(a=1)\n'), b.write_text(text)
@@ -390,13 +426,18 @@ def study5(house):
 
 	def benchmark(mode):
 		command = [sys.executable, house / "scripts/benchmark.py", "experiment=tension", "model=jcfpm", "seeds=1", f"mode={mode}"]
-		return subprocess.run(command, env={**os.environ, "YADEBLOCKS_PLUGIN": str(house / "plugin.so")}, capture_output=True, text=True, check=True).stdout
+		return subprocess.run(
+			command, env={**os.environ, "YADEBLOCKS_PLUGIN": str(house / "plugin.so")}, capture_output=True, text=True, check=True
+		).stdout
 
 	benchmark.file = lambda name: house / name
 	return benchmark
 
 
-@pytest.mark.parametrize("words, said", [(["mode=calibrate", "model=blocks"], "nothing to calibrate"), (["experiment=compression", "model=lourenco"], "nothing to run"), (["model=wood"], "benchmark.model")])
+@pytest.mark.parametrize(
+	"words, said", [(["mode=calibrate", "model=blocks"], "nothing to calibrate"), (["experiment=compression", "model=lourenco"], "nothing to run"),
+			(["model=wood"], "benchmark.model")]
+)
 def test_benchmarkOfNothing(study5, words, said):
 	run = subprocess.run([sys.executable, study5.file("scripts/benchmark.py"), *words], capture_output=True, text=True)
 	assert run.returncode and said in run.stderr
@@ -407,8 +448,10 @@ def test_staleCalibrationIsTold(study5):
 	known = json.loads(study5.file("scripts/calibrated.json").read_text())["jcfpm tension"]
 	assert known["parameters"]["tension"] == known["moved"]["tension"] and known["packings"] == [101, 102, 103]
 	assert "Stale" not in study5("quick")
-	for name, old, new, said in [("scripts/spheres.py", "coarser=2, steps=20000", "coarser=2, steps=10000", "code"), ("py/yadeblocks/packing.py", "solidity = 0.86", "solidity = 0.9", "code"),
-		("scripts/benchmark.py", "22 * q", "21 * q", "parameters"), ("py/yadeblocks/curves.py", "(0.35, ", "(0.36, ", "targets, code")]:
+	for name, old, new, said in [("scripts/spheres.py", "coarser=2, steps=20000", "coarser=2, steps=10000", "code"),
+					("py/yadeblocks/packing.py", "solidity = 0.86", "solidity = 0.9", "code"),
+					("scripts/benchmark.py", "22 * q", "21 * q", "parameters"),
+					("py/yadeblocks/curves.py", "(0.35, ", "(0.36, ", "targets, code")]:
 		path = study5.file(name)
 		before = path.read_text()
 		assert before.count(old) == 1

@@ -28,10 +28,10 @@ def strong(**changes):
 def engines(joints, stepper={}, **integrator):
 	"""The list of a time step; what is in `integrator` goes to BlockIntegrator. Nothing is written where tests are run."""
 	return [
-	        InteractionLoop([Ig2_Block_Block_BlockGeom()], [Ip2_BlockMat_BlockMat_JointPhys(joints=joints)], [Law2_BlockGeom_JointPhys_MohrCoulomb()]),
-	        BlockTimeStepper(**stepper),
-	        BlockForces(),
-	        BlockIntegrator(**{'rescueFile': '', **integrator})
+		InteractionLoop([Ig2_Block_Block_BlockGeom()], [Ip2_BlockMat_BlockMat_JointPhys(joints=joints)], [Law2_BlockGeom_JointPhys_MohrCoulomb()]),
+		BlockTimeStepper(**stepper),
+		BlockForces(),
+		BlockIntegrator(**{'rescueFile': '', **integrator})
 	]
 
 
@@ -97,7 +97,8 @@ def runYade(script, *arguments, threads=1, cwd=None, env={}):
 	"""The program yade with a script (a path, or text that becomes one in cwd): CompletedProcess."""
 	if '\n' in str(script):
 		path = os.path.join(cwd, 'script.py')
-		with open(path, 'w') as file: file.write(script)
+		with open(path, 'w') as file:
+			file.write(script)
 		script = path
 	path = os.environ['PYTHONPATH'] + ':' + os.path.dirname(os.path.abspath(differences.__code__.co_filename))
 	environment = {**os.environ, 'PYTHONPATH': path, 'OMP_WAIT_POLICY': 'passive', **env}

@@ -7,12 +7,17 @@ import pytest
 from scenes import *
 
 shapes = {
-        'position reference velocity force': ('nodeCount', 2), 'mass inertia': ('nodeCount', ),
-        'zoneNodes': ('zoneCount', 3), 'zoneVolume': ('zoneCount', ),
-        'firstNode firstZone firstEdge': ('blockCount + 1', ), 'blockMaterial': ('blockCount', ),
-        'edgeNodes': ('firstEdge[-1]', 2),
-        'segmentNodes segmentParameters': ('contactCount / 2', 4), 'segmentBlocks normal': ('contactCount / 2', 2), 'segmentArea': ('contactCount / 2', ),
-        'pointOpening pointSlip pointSigma pointTau pointStatus': ('contactCount', ),
+	'position reference velocity force': ('nodeCount', 2),
+	'mass inertia': ('nodeCount', ),
+	'zoneNodes': ('zoneCount', 3),
+	'zoneVolume': ('zoneCount', ),
+	'firstNode firstZone firstEdge': ('blockCount + 1', ),
+	'blockMaterial': ('blockCount', ),
+	'edgeNodes': ('firstEdge[-1]', 2),
+	'segmentNodes segmentParameters': ('contactCount / 2', 4),
+	'segmentBlocks normal': ('contactCount / 2', 2),
+	'segmentArea': ('contactCount / 2', ),
+	'pointOpening pointSlip pointSigma pointTau pointStatus': ('contactCount', ),
 }
 names = [name for group in shapes for name in group.split()]
 indices = 'zoneNodes firstNode firstZone firstEdge blockMaterial edgeNodes segmentNodes segmentBlocks'.split()
@@ -25,7 +30,9 @@ def test_shapesAsDocumented():
 	for group, shape in shapes.items():
 		for name in group.split():
 			array = getattr(m, name)
-			assert array.shape == tuple(eval(str(n), {}, {k: getattr(m, k) for k in 'nodeCount zoneCount blockCount contactCount firstEdge'.split()}) for n in shape), name
+			assert array.shape == tuple(
+				eval(str(n), {}, {k: getattr(m, k) for k in 'nodeCount zoneCount blockCount contactCount firstEdge'.split()}) for n in shape
+			), name
 			assert array.dtype == (np.int32 if name in indices else np.uint8 if name == 'pointStatus' else np.float64), name
 	assert m.zoneStress().shape == (m.zoneCount, 3) and m.contactPositions().shape == (m.contactCount, 2)
 
@@ -128,7 +135,8 @@ def test_zoneQualityIsThatOfTheZones():
 	"""A square with a point in its middle: four right isosceles triangles."""
 	materials()
 	model = BlockModel(thickness=0.1)
-	with pytest.raises(RuntimeError, match='no zones'): model.zoneQuality()
+	with pytest.raises(RuntimeError, match='no zones'):
+		model.zoneQuality()
 	model.addRegion(rectangle(0, 0, 2, 2), 'unit', zoneSize=2, zoning='fan')
 	q = model.zoneQuality()
 	# angles to rounding; longest edge 2 by least height 1, and an equilateral triangle has 2/sqrt(3)

@@ -11,33 +11,35 @@ from scenes import *
 
 # what can be set, with a value that is not the default
 writable = {
-        'Block': {},
-        'BlockMat': dict(young=2e9, poisson=0.1, density=5., label='clay'),
-        'BlockModel': dict(thickness=0.5, planeStress=True, smallStrain=True),
-        'BlockGeom': {},
-        'Ig2_Block_Block_BlockGeom': dict(label='a'),
-        'JointMat': dict(material1='a', material2='b', kn=1., ks=2., frictionAngle=0.3, cohesion=4., tension=5., dilationAngle=0.6, frictionAngleResidual=0.7,
-                         cohesionResidual=8., tensionResidual=9., dilationLimitSlip=1e-3, bonded=False),
-        'JointPhys': {},
-        'Ip2_BlockMat_BlockMat_JointPhys': dict(label='a'),
-        'Law2_BlockGeom_JointPhys_MohrCoulomb': dict(label='a'),
-        'BlockTimeStepper': dict(safety=0.5, quasiStatic=False, active=False, label='a'),
-        'BlockForces': dict(dead=True, label='a'),
-        'BlockIntegrator': dict(damping='none', alpha=0.7, viscosity=3., watchPeriod=7, rescueFile='x.xml', dead=True, label='a'),
-        'BlockServo': dict(groups=['a'], target=0.01, floor=3., least=0.5, period=7, dead=True, label='a'),
-        'BlockCrackRecorder': dict(fileName='x.txt', iterPeriod=3, label='a'),
-        'Bo1_Block_Aabb': dict(label='a'),
-        'BlockContacts': dict(dead=True, label='a'),
+	'Block': {},
+	'BlockMat': dict(young=2e9, poisson=0.1, density=5., label='clay'),
+	'BlockModel': dict(thickness=0.5, planeStress=True, smallStrain=True),
+	'BlockGeom': {},
+	'Ig2_Block_Block_BlockGeom': dict(label='a'),
+	'JointMat': dict(
+		material1='a', material2='b', kn=1., ks=2., frictionAngle=0.3, cohesion=4., tension=5., dilationAngle=0.6, frictionAngleResidual=0.7,
+		cohesionResidual=8., tensionResidual=9., dilationLimitSlip=1e-3, bonded=False
+	),
+	'JointPhys': {},
+	'Ip2_BlockMat_BlockMat_JointPhys': dict(label='a'),
+	'Law2_BlockGeom_JointPhys_MohrCoulomb': dict(label='a'),
+	'BlockTimeStepper': dict(safety=0.5, quasiStatic=False, active=False, label='a'),
+	'BlockForces': dict(dead=True, label='a'),
+	'BlockIntegrator': dict(damping='none', alpha=0.7, viscosity=3., watchPeriod=7, rescueFile='x.xml', dead=True, label='a'),
+	'BlockServo': dict(groups=['a'], target=0.01, floor=3., least=0.5, period=7, dead=True, label='a'),
+	'BlockCrackRecorder': dict(fileName='x.txt', iterPeriod=3, label='a'),
+	'Bo1_Block_Aabb': dict(label='a'),
+	'BlockContacts': dict(dead=True, label='a'),
 }
 readonly = {
-        'Block': 'model index outline force nodes zones',
-        'BlockModel': 'materialLabels firstBody groups blockCount nodeCount zoneCount contactCount',
-        'BlockGeom': 'model pair contact ends points positions normals areas openings slips',
-        'JointPhys': 'model pair contact sigma tau status',
-        'BlockTimeStepper': 'stableStep',
-        'BlockServo': 'throttle',
-        'BlockContacts': 'colliderRuns',
-        'BlockCrackRecorder': 'points modes times positions events',
+	'Block': 'model index outline force nodes zones',
+	'BlockModel': 'materialLabels firstBody groups blockCount nodeCount zoneCount contactCount',
+	'BlockGeom': 'model pair contact ends points positions normals areas openings slips',
+	'JointPhys': 'model pair contact sigma tau status',
+	'BlockTimeStepper': 'stableStep',
+	'BlockServo': 'throttle',
+	'BlockContacts': 'colliderRuns',
+	'BlockCrackRecorder': 'points modes times positions events',
 }
 each = pytest.mark.parametrize('name', list(writable))
 
@@ -52,8 +54,8 @@ def test_everythingIsDocumented(name):
 	cls = getattr(yade, name)
 	assert len(cls.__doc__.strip()) > 20
 	undocumented = [
-	        member for member, value in vars(cls).items()
-	        if not member.startswith('_') and (isinstance(value, property) or callable(value)) and len((value.__doc__ or '').split(':ydefault:')[0].strip()) < 5
+		member for member, value in vars(cls).items() if not member.startswith('_') and (isinstance(value, property) or callable(value))
+		and len((value.__doc__ or '').split(':ydefault:')[0].strip()) < 5
 	]
 	assert undocumented == []
 	text = pydoc.plain(pydoc.render_doc(cls))
@@ -63,7 +65,8 @@ def test_everythingIsDocumented(name):
 @each
 def test_numbersHaveUnits(name):
 	"""A length, force, stress or time without its unit is a trap: [m], [Pa], ... or what kind of number it is."""
-	plain = 'bonded material1 material2 dead label ompThreads timingDeltas execTime execCount safety alpha active watchPeriod poisson pair index firstBody points modes'.split()
+	plain = 'bonded material1 material2 dead label ompThreads timingDeltas execTime execCount safety alpha active watchPeriod poisson pair index firstBody points modes'.split(
+	)
 	for member, value in vars(getattr(yade, name)).items():
 		if not isinstance(value, property) or ':yattrtype:`Real`' not in (value.__doc__ or '') or member in plain: continue
 		assert '[' in value.__doc__, member
@@ -122,7 +125,8 @@ def test_theSceneAsYadeShowsIt():
 		segments = np.arange(len(m.pointSigma))[points] // 2
 		seen += range(*i.geom.points)
 		assert {tuple(p) for p in m.segmentBlocks[segments]} == {(i.id1, i.id2)}
-		for shown, array in ((i.geom.openings, m.pointOpening), (i.geom.slips, m.pointSlip), (i.phys.sigma, m.pointSigma), (i.phys.tau, m.pointTau), (i.phys.status, m.pointStatus)):
+		for shown, array in ((i.geom.openings, m.pointOpening), (i.geom.slips, m.pointSlip), (i.phys.sigma, m.pointSigma), (i.phys.tau, m.pointTau),
+					(i.phys.status, m.pointStatus)):
 			assert np.array_equal(shown, array[points])
 		assert np.array_equal(i.geom.areas, m.segmentArea[segments]) and np.array_equal(np.array(i.geom.normals), m.normal[segments])
 		assert np.array_equal(np.array(i.geom.positions), m.contactPositions()[points])
@@ -134,9 +138,11 @@ def test_theSceneAsYadeShowsIt():
 
 def test_whatWasMadeByHandIsRefused(tmp_path):
 	"""Blocks are made by BlockModel.insert; one made by hand has no model: an exception, and no crash of the whole program."""
-	looks = ['Block().force', 'Block().outline', 'Block().nodes', 'Block().zones', 'BlockGeom().points', 'BlockGeom().areas', 'BlockGeom().positions', 'JointPhys().kn',
-	         'JointPhys().frictionAngle', 'JointPhys().sigma', 'JointPhys().status', 'setattr(JointPhys(), "kn", 1.)',
-	         'O.bodies.append(Body(shape=Block())); O.engines = [BlockForces()]; O.step()']
+	looks = [
+		'Block().force', 'Block().outline', 'Block().nodes', 'Block().zones', 'BlockGeom().points', 'BlockGeom().areas', 'BlockGeom().positions',
+		'JointPhys().kn', 'JointPhys().frictionAngle', 'JointPhys().sigma', 'JointPhys().status', 'setattr(JointPhys(), "kn", 1.)',
+		'O.bodies.append(Body(shape=Block())); O.engines = [BlockForces()]; O.step()'
+	]
 	script = '''
 import yadeblocks
 from yade import *

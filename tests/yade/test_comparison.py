@@ -30,7 +30,9 @@ def test_polyhedraInTension(tmp_path):
 	assert found['peak_tensile_stress'] == pytest.approx(0.35, rel=0.15) and found['joint_stiffness'] == pytest.approx(50, rel=0.1)
 
 
-@pytest.mark.parametrize('words, said', [(('spheres', 'model=wood'), 'model'), (('polyhedra', 'experiment=compression'), 'experiment'), (('polyhedra', 'steps=-1'), 'steps')])
+@pytest.mark.parametrize(
+	'words, said', [(('spheres', 'model=wood'), 'model'), (('polyhedra', 'experiment=compression'), 'experiment'), (('polyhedra', 'steps=-1'), 'steps')]
+)
 def test_wrongInput(tmp_path, words, said):
 	run = runYade(scripts / (words[0] + '.py'), *words[1:], cwd=tmp_path)
 	assert run.returncode and words[0] + '.' + said in run.stdout + run.stderr

@@ -27,9 +27,14 @@ def scene(gap=1e-4, drop=True, gravity=(0, -g)):
 	if gravity: model.gravity(gravity)
 	model.insert()
 	O.engines = [
-		BlockContacts(label='contacts'), InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0),
-		InteractionLoop([Ig2_Block_Block_BlockGeom()], [Ip2_BlockMat_BlockMat_JointPhys(joints=[JointMat(**joint)])], [Law2_BlockGeom_JointPhys_MohrCoulomb()]),
-		BlockTimeStepper(quasiStatic=False, safety=0.3), BlockForces(), BlockIntegrator(damping='none', rescueFile='')]
+		BlockContacts(label='contacts'),
+		InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0),
+		InteractionLoop([Ig2_Block_Block_BlockGeom()], [Ip2_BlockMat_BlockMat_JointPhys(joints=[JointMat(**joint)])],
+				[Law2_BlockGeom_JointPhys_MohrCoulomb()]),
+		BlockTimeStepper(quasiStatic=False, safety=0.3),
+		BlockForces(),
+		BlockIntegrator(damping='none', rescueFile='')
+	]
 	return model
 
 
@@ -130,7 +135,7 @@ def test_dilatedJointsBecomeFreeContactsAndAreSaved(tmp_path):
 	limit, angle = 2e-5, 0.2
 	O.dt = 1e-3
 	O.engines = [BlockContacts(), InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0)] \
-		+ engines(glued(cohesion=1e3, tension=1e3, frictionAngle=0.5, dilationAngle=angle, dilationLimitSlip=limit), alpha=0.8)
+                              + engines(glued(cohesion=1e3, tension=1e3, frictionAngle=0.5, dilationAngle=angle, dilationLimitSlip=limit), alpha=0.8)
 	O.run(200, True)
 	before = m.position[upper, 1].mean()
 	O.run(400, True)

@@ -51,7 +51,8 @@ def test_theStepIsRight(tmp_path):
 	m, recorder = recorded(tmp_path, first['step'])
 	assert O.iter == first['step'] and not m.pointStatus.any() and recorder.events == []
 	O.run(1, True)
-	assert np.count_nonzero(m.pointStatus) == len(recorder.events) == len([e for e in [first]] + [e for e in recorder.events if e['step'] == first['step']]) - 1
+	assert np.count_nonzero(m.pointStatus) == len(recorder.events
+							) == len([e for e in [first]] + [e for e in recorder.events if e['step'] == first['step']]) - 1
 
 
 def test_longerPeriodMissesNothing(tmp_path):
@@ -72,6 +73,18 @@ def test_acrossSaveAndLoad(tmp_path):
 	O.run(1700 - O.iter, True)
 	assert O.engines[-1].events == expected
 	assert (tmp_path / 'whole.txt').read_text() == (tmp_path / 'parts.txt').read_text()
+
+
+def test_clockSetBackForgetsNothing(tmp_path):
+	"""O.resetTime() is no rescue: what happened stays, and what follows is added."""
+	m, recorder = recorded(tmp_path, 1500)
+	before = recorder.events
+	assert len(before) > 3
+	O.resetTime()
+	O.run(200, True)
+	events = O.engines[-1].events
+	assert events[:len(before)] == before and len(events) > len(before) and {e['step'] <= 200 for e in events[len(before):]} == {True}
+	assert sorted(recorder.points) == np.flatnonzero(m.pointStatus).tolist() and len(lines(tmp_path / 'cracks.txt')) == len(events)
 
 
 def test_whatIsBrokenAlreadyIsNoEvent(tmp_path):

@@ -139,3 +139,40 @@ def test_accountsGoWithTheLastGoodState(tmp_path):
 	O.run(50, True)
 	e = energies()
 	assert abs(sum(e.values())) < 1e-4 * -e['blockWork'] and e['blockDamping'] == pytest.approx(before['blockDamping'], rel=0.05)
+
+
+@pytest.mark.parametrize('steps', [1, 2, 3, 15, 16, 50, 99, 100, 101, 150])
+def test_releaseOfAMovingGroup(steps):
+	"""What a group has done on the blocks stays in the accounts when it lets them go: the blocks fly on with the energy it gave them."""
+	materials()
+	m = column(heights=(0.3, 0.5))
+	m.drive('pull', nodesWhere(m, lambda x, y: y > 0.8 - 1e-9), 'y', velocity=0.5, rampTime=0.02)
+	m.insert()
+	O.trackEnergy, O.engines = True, engines(strong(), dict(quasiStatic=False), damping='none', watchPeriod=10)
+	O.run(steps, True)
+	m.release('pull')
+	assert m.groups == []
+	O.run(1, True)
+	work = -O.energy['blockWork']
+	assert work > 0
+	for _ in range(3):
+		O.run(100, True)
+		# Zones are linear in their strain, 1e-5 here, and the balance of leapfrog is exact for what is linear.
+		assert -O.energy['blockWork'] == work and abs(sum(energies().values())) < 1e-4 * work
+
+
+def test_releasedWorkIsSaved(tmp_path):
+	materials()
+	m = column()
+	m.drive('pull', range(m.nodeCount), 'y', velocity=0.5)
+	m.insert()
+	O.trackEnergy, O.engines = True, engines(strong(), dict(quasiStatic=False), damping='none', watchPeriod=10)
+	O.run(50, True)
+	m.release('pull')
+	O.save(str(tmp_path / 'flying.yade'))
+	O.run(50, True)
+	work, mass = -O.energy['blockWork'], m.mass.sum()
+	assert work == pytest.approx(mass * 0.5**2 / 2, rel=1e-9) # all grid points at 0.5 m/s
+	O.load(str(tmp_path / 'flying.yade'))
+	O.run(50, True)
+	assert -O.energy['blockWork'] == work

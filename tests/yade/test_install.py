@@ -28,7 +28,9 @@ def test_onlyThePluginAndItsPythonFiles(installed):
 	assert str(libraries) == str(root) + yade.config.libDir
 	python = {path for path in files if path.suffix == '.py'}
 	assert {path.name for path in files - python} == {'libyadeblocks.so'}
-	assert {path.relative_to('usr/lib/python3/dist-packages/yadeblocks') for path in python} == {path.relative_to(package) for path in package.rglob('*.py')}
+	assert {path.relative_to('usr/lib/python3/dist-packages/yadeblocks') for path in python} == {
+		path.relative_to(package) for path in package.rglob('*.py')
+	}
 
 
 def test_YADELoadsItAtItsStart(installed, tmp_path):
@@ -39,14 +41,16 @@ def test_YADELoadsItAtItsStart(installed, tmp_path):
 	couplet()
 	O.run(20, True)
 	O.save(str(tmp_path / 'saved.yade.bz2'))
-	run = runYade("""import json
+	run = runYade(
+		"""import json
 O.load('saved.yade.bz2')
 O.run(10, True)
 plugin = {line.split()[-1] for line in open('/proc/self/maps') if 'libyadeblocks' in line}
 before = BlockModel
 import yadeblocks
 print(json.dumps([O.iter, len(O.bodies), sorted(plugin), yadeblocks.__file__, before is BlockModel]))
-""", cwd=tmp_path, env={'YADE_PREFIX': str(root / 'usr'), 'PYTHONPATH': str(root / 'usr/lib/python3/dist-packages'), 'YADEBLOCKS_PLUGIN': ''})
+""", cwd=tmp_path, env={'YADE_PREFIX': str(root / 'usr'), 'PYTHONPATH': str(root / 'usr/lib/python3/dist-packages'), 'YADEBLOCKS_PLUGIN': ''}
+	)
 	assert run.returncode == 0, run.stdout + run.stderr
 	steps, bodies, plugin, imported, same = json.loads(run.stdout.splitlines()[-1])
 	assert (steps, bodies, same) == (30, len(O.bodies), True)

@@ -40,16 +40,18 @@ def test_jumpKeepsTheEnergyAccount():
 
 def test_jumpIsRefused():
 	m = couplet()
-	with pytest.raises(RuntimeError, match='no properties yet'): m.elasticJump()
+	with pytest.raises(RuntimeError, match='no properties yet'):
+		m.elasticJump()
 	O.run(1, True)
-	with pytest.raises(ValueError, match=r'\(0, 1\).*1.5'): m.elasticJump(fraction=1.5)
+	with pytest.raises(ValueError, match=r'\(0, 1\).*1.5'):
+		m.elasticJump(fraction=1.5)
 	m.setTarget('top', 0)
-	with pytest.raises(RuntimeError, match='driven'): m.elasticJump()
+	with pytest.raises(RuntimeError, match='driven'):
+		m.elasticJump()
 
 
 def test_servoSlowsWhatIsTooFast():
 	"""The same specimen loaded twenty times too fast: with the servo, the peak is nearer to that of slow loading, and the ratio is near its target."""
-
 	def peak(steps, servo):
 		m, history = couplet(steps=steps, stroke=0.024e-3), []
 		if servo:
@@ -73,11 +75,14 @@ def test_servoSlowsWhatIsTooFast():
 	assert 0.05 <= least < 0.5
 
 
-@pytest.mark.parametrize('attribute, value, rule', [('target', 0, 'positive'), ('floor', -1, 'not be negative'), ('least', 0, '(0, 1]'), ('period', 0, 'at least 1')])
+@pytest.mark.parametrize(
+	'attribute, value, rule', [('target', 0, 'positive'), ('floor', -1, 'not be negative'), ('least', 0, '(0, 1]'), ('period', 0, 'at least 1')]
+)
 def test_servoRefuses(attribute, value, rule):
 	servo = BlockServo(groups=['top'])
 	before = getattr(servo, attribute)
-	with pytest.raises(ValueError) as error: setattr(servo, attribute, value)
+	with pytest.raises(ValueError) as error:
+		setattr(servo, attribute, value)
 	assert 'BlockServo.' + attribute in str(error.value) and rule in str(error.value)
 	assert getattr(servo, attribute) == before
 
@@ -87,7 +92,8 @@ def test_servoNeedsDrivenGroups(groups, text):
 	m = couplet()
 	m.push('press', top(m), 'x', force=1)
 	O.engines = O.engines[:-1] + [BlockServo(groups=groups)] + O.engines[-1:]
-	with pytest.raises((RuntimeError, ValueError), match=text): O.run(1, True)
+	with pytest.raises((RuntimeError, ValueError), match=text):
+		O.run(1, True)
 
 
 def test_settleUntilNothingMoves():
@@ -104,8 +110,10 @@ def test_settleUntilNothingMoves():
 	assert 0 < steps == O.iter and m.unbalancedRatio() < 1e-6
 	low = nodesWhere(m, lambda x, y: y < 1e-9)
 	assert -m.force[low, 1].sum() == pytest.approx(500, rel=1e-4) # ratio 1e-6 of all contact forces, some fifty rows' worth
-	with pytest.raises(RuntimeError, match='after 7 steps'): loading.settle(m, ratio=1e-30, period=5, maxSteps=7)
-	with pytest.raises(ValueError, match='ratio'): loading.settle(m, ratio=0)
+	with pytest.raises(RuntimeError, match='after 7 steps'):
+		loading.settle(m, ratio=1e-30, period=5, maxSteps=7)
+	with pytest.raises(ValueError, match='ratio'):
+		loading.settle(m, ratio=0)
 
 
 def test_approachIsSlowUpToThePeak():
@@ -116,9 +124,11 @@ def test_approachIsSlowUpToThePeak():
 		assert not approach.passed and approach.speed == 0.25
 	approach(1.3, 1)
 	assert approach.passed and approach.speed == pytest.approx(0.275)
-	for _ in range(20): approach(2, 1)
+	for _ in range(20):
+		approach(2, 1)
 	assert approach.speed == 1
-	with pytest.raises(ValueError, match=r'slow.*\(0, 1\].*2'): loading.Approach(m, 'top', slow=2)
+	with pytest.raises(ValueError, match=r'slow.*\(0, 1\].*2'):
+		loading.Approach(m, 'top', slow=2)
 
 
 @pytest.mark.parametrize('condition, reason, step', [(dict(drop=0.5), 'drop', 5), (dict(displacement=3), 'displacement', 3), (dict(cracks=2), 'cracks', 4)])
@@ -131,4 +141,5 @@ def test_stop(condition, reason, step):
 
 @pytest.mark.parametrize('condition, text', [({}, 'no condition'), (dict(drop=1), 'drop'), (dict(displacement=0), 'displacement'), (dict(cracks=0), 'cracks')])
 def test_stopRefuses(condition, text):
-	with pytest.raises(ValueError, match=text): loading.Stop(**condition)
+	with pytest.raises(ValueError, match=text):
+		loading.Stop(**condition)

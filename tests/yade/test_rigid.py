@@ -60,7 +60,8 @@ def test_whatInsertMakes():
 	model.addRegion(rectangle(10, 0, 11, 1), 'unit', zoneSize=1)
 	block = model.addRigid([(0, 0), (2, 0), (2, 1), (1, 1), (1, 3), (0, 3)], 'steel', holes=[rectangle(0.25, 1.5, 0.75, 2.5)[::-1]])
 	model.addRegion(rectangle(12, 0, 13, 1), 'unit', zoneSize=1)
-	with pytest.raises(RuntimeError, match='bodyOf'): model.bodyOf(block)
+	with pytest.raises(RuntimeError, match='bodyOf'):
+		model.bodyOf(block)
 	model.insert()
 	parts = [(2, 1, 1, 0.5, 1), (1, 2, 0.5, 2, 1), (0.5, 1, 0.5, 2, -1)] # width, height, centre, sign
 	A = sum(s * b * h for b, h, x, y, s in parts)
@@ -260,7 +261,8 @@ def test_aKickAndWhatAContactMakesOfIt():
 	state.vel = (0, -1, 0)
 	O.run(50, True)
 	assert state.mass == pytest.approx(7.8, rel=1e-12) and state.vel[1] == -1 and state.pos[1] == pytest.approx(0.2, rel=1e-12)
-	while state.mass < 8: O.run(1, True)
+	while state.mass < 8:
+		O.run(1, True)
 	assert state.pos[1] > 0.05 and state.mass > 100 * 7.8 # before it touches
 	assert state.mass * state.vel[1] == pytest.approx(-7.8, rel=1e-12)
 	e = entries()
@@ -404,7 +406,9 @@ def test_saveAndLoad(ending, tmp_path):
 
 
 def test_sameBitsOnOneThreadAndTwo(tmp_path):
-	script = 'import sys\nsys.path.insert(0, %r)\nfrom test_rigid import *\nimport hashlib\nm = scene()\nO.run(500, True)\n' % os.path.dirname(os.path.abspath(__file__))
+	script = 'import sys\nsys.path.insert(0, %r)\nfrom test_rigid import *\nimport hashlib\nm = scene()\nO.run(500, True)\n' % os.path.dirname(
+		os.path.abspath(__file__)
+	)
 	script += "print('bits', *(name + ':' + hashlib.sha256(value.tobytes()).hexdigest()[:16] for name, value in stateOfAll(m).items()))\n"
 	bits = []
 	for threads in 1, 2:
@@ -430,6 +434,7 @@ def test_theLastGoodStateHoldsBodiesToo():
 
 
 # ---- what is refused
+
 
 def refusal(action=lambda: O.run(3, True)):
 	with pytest.raises((ValueError, RuntimeError)) as caught:
@@ -523,8 +528,10 @@ def test_otherShapes(shape):
 	model, low, high = pressed(between(), contacts=True)
 	O.run(2, True)
 	O.materials.append(FrictMat(label='other'))
-	body = dict(wall=lambda: utils.wall(-1, axis=1), facet=lambda: utils.facet([(0, -1, -1), (1, -1, -1), (0, -1, 1)]), box=lambda: utils.box((0, -2, 0), (1, 1, 1)),
-	            sphere=lambda: utils.sphere((0, -5, 0), 1))[shape]()
+	body = dict(
+		wall=lambda: utils.wall(-1, axis=1), facet=lambda: utils.facet([(0, -1, -1), (1, -1, -1), (0, -1, 1)]),
+		box=lambda: utils.box((0, -2, 0), (1, 1, 1)), sphere=lambda: utils.sphere((0, -5, 0), 1)
+	)[shape]()
 	body.mask = 2
 	O.bodies.append(body)
 	O.run(2, True) # it has nothing to do with blocks
@@ -535,6 +542,7 @@ def test_otherShapes(shape):
 
 
 # ---- pictures
+
 
 def test_picturesAndExport(tmp_path):
 	from yadeblocks.export import BlocksExport, blockOutlines
@@ -564,3 +572,22 @@ def test_rigidBlocksAreDrawnWithTheirHoles():
 	assert (areas > 0).all() and areas.sum() == pytest.approx(16 - 2 - 0.5 - 0.25)
 	for wrong in (-1, 1):
 		says(str(pytest.raises(ValueError, model.cornerTriangles, wrong).value), 'BlockModel.cornerTriangles', 'block', str(wrong))
+
+
+@pytest.mark.parametrize('quasiStatic, said', [(False, True), (True, False)])
+def test_nothingLimitsTheTimeStep(tmp_path, quasiStatic, said):
+	"""A rigid block alone: O.dt stays YADE's 1e-8 s, which must not go unnoticed."""
+	run = runYade("""
+import yadeblocks
+from yade import *
+from yadeblocks.specimen import rectangle
+O.materials.append(BlockMat(label='steel', young=200e9, poisson=0.3, density=7800))
+model = BlockModel(thickness=1)
+model.addRigid(rectangle(0, 0, 1, 1), 'steel')
+model.insert()
+O.engines = [ForceResetter(), BlockTimeStepper(quasiStatic=%s), BlockForces(), NewtonIntegrator(), BlockIntegrator(rescueFile='')]
+O.run(5, True)
+print('dt', O.dt)
+""" % quasiStatic, cwd=tmp_path)
+	assert 'dt 1e-08' in run.stdout and run.returncode == 0, run.stdout + run.stderr
+	assert ((run.stdout + run.stderr).count('nothing limits the time step') == 1) == said

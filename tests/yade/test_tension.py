@@ -29,11 +29,13 @@ def test_resultFile(small):
 	text, out = small
 	result = json.loads((out / 'result.json').read_text())
 	assert set(result) >= {'scenario', 'parameters', 'seed', 'quantities', 'cost', 'quality'}
-	assert result['scenario'] == 'tension' and result['seed'] == 1 and result['parameters'] | {'case': 'TT3', 'size': 6e-3, 'steps': 4000} == result['parameters']
+	assert result['scenario'] == 'tension' and result['seed'] == 1 and result['parameters'] | {'case': 'TT3', 'size': 6e-3, 'steps': 4000
+													} == result['parameters']
 	assert {'seed', 'seeds', 'threads', 'tag', 'size', 'sizeMeaning', 'lloyd', 'damping', 'alpha', 'steps', 'plane', 'case'} <= set(result['parameters'])
 
 	quantities = {q['name']: q for q in result['quantities']}
-	assert len(quantities) == len(result['quantities']) and all(set(q) >= {'name', 'unit', 'measured', 'expected', 'source', 'error'} for q in result['quantities'])
+	assert len(quantities) == len(result['quantities']
+					) and all(set(q) >= {'name', 'unit', 'measured', 'expected', 'source', 'error'} for q in result['quantities'])
 	for q in result['quantities']:
 		if q['expected'] is None: assert q['error'] is None
 		else: assert q['error'] == pytest.approx((q['measured'] - q['expected']) / q['expected'], rel=1e-9) and q['source']
@@ -45,13 +47,15 @@ def test_resultFile(small):
 	for pair in 'mortar-mortar', 'unit-mortar':
 		for mode in 'tension', 'shear':
 			assert quantities['cracks_%s_%s' % (pair, mode)]['measured'] >= 0
-	assert quantities['cracks_unit-mortar_tension']['measured'] + quantities['cracks_mortar-mortar_tension']['measured'] > 20 # two points a joint across 100 mm of 6 mm
+	assert quantities['cracks_unit-mortar_tension']['measured'] + quantities['cracks_mortar-mortar_tension'][
+		'measured'] > 20 # two points a joint across 100 mm of 6 mm
 
 	cost = result['cost']
 	assert set(cost) >= {'cpu_s', 'wall_s', 'steps', 'us_per_step', 'blocks', 'nodes', 'zones', 'contacts', 'peak_rss_mb', 'threads'}
 	assert all(isinstance(cost[name], (int, float)) and cost[name] > 0 for name in cost if cost[name] is not None)
 	assert cost['steps'] <= 4000 and cost['threads'] == 1 and cost['blocks'] < cost['nodes'] < 2 * cost['contacts']
-	assert set(result['quality']) == {'unbalanced_ratio_max', 'half_rate_change', 'energy_error', 'without_peak'} and result['quality']['without_peak'] == [] and result['quality']['unbalanced_ratio_max'] > 0
+	assert set(result['quality']) == {'unbalanced_ratio_max', 'half_rate_change', 'energy_error', 'without_peak'
+						} and result['quality']['without_peak'] == [] and result['quality']['unbalanced_ratio_max'] > 0
 
 
 def test_curve(small):
@@ -90,8 +94,10 @@ def test_whatIsPrinted(small):
 	assert 'Traceback' not in text and 'Warning' not in text and 'WARN' not in text, text
 
 
-@pytest.mark.parametrize('words, line', [
-        (['sice=2e-3'], ['sice', 'did you mean size']), (['size=0.2'], ['tension.size', 'smaller', '0.2']), (['case=TT9'], ['tension.case', 'TT1', 'TT9'])])
+@pytest.mark.parametrize(
+	'words, line', [(['sice=2e-3'], ['sice', 'did you mean size']), (['size=0.2'], ['tension.size', 'smaller', '0.2']),
+			(['case=TT9'], ['tension.case', 'TT1', 'TT9'])]
+)
 def test_refused(words, line, tmp_path):
 	code, text, out = tension(tmp_path, *words)
 	last = text.strip().splitlines()[-1]

@@ -48,4 +48,5 @@ def test_sameBitsFromRunToRun():
 		m = couplet(damping='adaptive', trackEnergy=True)
 		O.run(1400, True)
 		return state(m)
+
 	assert differences(run(), run()) == []

@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -37,12 +37,13 @@ inline Real signedArea(const Ring& ring)
 	return twice / 2;
 }
 
-/// A number as an error message should show it: all 17 digits, no zeros that were not meant.
-inline std::string shown(Real value)
+/// A number as a message should show it: all 17 digits unless fewer are asked for, no zeros that were not meant, and a decimal point whatever
+/// the locale.
+inline std::string shown(Real value, int digits = 17)
 {
-	char text[40];
-	std::snprintf(text, sizeof text, "%.17g", value);
-	return text;
+	char       text[40];
+	const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
+	return { text, end };
 }
 
 /// The one way in which the kernel refuses input: what, the rule, the value.

@@ -217,4 +217,11 @@ TEST(JointLaw, RefusesImpossibleParameters)
 	}
 	EXPECT_NO_THROW(validate(mortar()));
 	EXPECT_NO_THROW(validate(elasticJoint(1, 1)));
+
+	// A broken joint that slides by ds under the pressure p takes p tan(phi_res) ds from friction and gives p tan(psi) ds back by rising.
+	JointParams dilating = mortar();
+	dilating.tanDilation = dilating.tanPhiResidual;
+	EXPECT_NO_THROW(validate(dilating));
+	dilating.tanDilation = std::tan(0.3), dilating.tanPhiResidual = 0;
+	expectRefusal([&] { validate(dilating); }, { "dilationAngle", "not exceed frictionAngleResidual", shown(std::atan(std::tan(0.3))) + " and 0 rad" });
 }

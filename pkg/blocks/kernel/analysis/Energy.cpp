@@ -59,7 +59,7 @@ Real loadWork(const BlockAssembly& a)
 
 Real groupWork(const BlockAssembly& a)
 {
-	Real sum = a.state.accounts.released;
+	Real sum = a.state.accounts.released.work;
 	for (const MotionGroup& g : a.state.groups)
 		sum += g.work;
 	return sum;

@@ -10,7 +10,7 @@ Real jointEnergy(const BlockAssembly&);             ///< elastic energy of the j
 Real kineticEnergy(const BlockAssembly&);           ///< from the velocities at the last half step and the inertia
 Real gridPointsKineticEnergy(const BlockAssembly&); ///< ... without that of rigid blocks
 Real loadWork(const BlockAssembly&);                ///< of the dead loads since the reference state
-Real groupWork(const BlockAssembly&);               ///< of driven and pushed degrees of freedom
+Real groupWork(const BlockAssembly&);               ///< of driven and pushed degrees of freedom, released ones included
 Real rigidWork(const BlockAssembly&);               ///< of what moves rigid blocks, apart from their neighbours and dead loads
 
 /// Sum of |F| over free degrees of freedom (moments on rigid blocks left out) by twice the sum of |F| over contact points, the latter at least `floor` [N].

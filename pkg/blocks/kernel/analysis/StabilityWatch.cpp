@@ -20,20 +20,14 @@ namespace {
 		return fastest;
 	}
 
+	/// "12 %"
+	std::string percent(Real share) { return std::to_string(std::lround(100 * share)) + " %"; }
+
 	/// "blocks 3 and 7 overlap by 1e-05 m, 12 % of the height of the zones behind (8e-05 m)"
 	std::string described(const Overlap& o)
 	{
-		char text[160];
-		std::snprintf(
-			text,
-			sizeof text,
-			"blocks %d and %d overlap by %.3g m, %.0f %% of the height of the zones behind (%.3g m)",
-			o.block[0],
-			o.block[1],
-			o.depth,
-			100 * o.share(),
-			o.height);
-		return text;
+		return "blocks " + std::to_string(o.block[0]) + " and " + std::to_string(o.block[1]) + " overlap by " + shown(o.depth, 3) + " m, "
+			+ percent(o.share()) + " of the height of the zones behind (" + shown(o.height, 3) + " m)";
 	}
 
 	/// What half a step of the present forces adds to the kinetic energy, dt v.f / 2.
@@ -67,15 +61,13 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 	if (overlaps.entries > lostShare * a.blockCount()) return { false, overlaps.through[0], "it " + entered + cure };
 	if (overlaps.inverted >= 0) return { false, overlaps.inverted, "a zone has turned inside out" };
 	if (overlaps.mean > OverlapWatch::thin) {
-		char share[16];
-		std::snprintf(share, sizeof share, "%.0f %%", 100 * overlaps.mean);
 		return { false,
 			 overlaps.joint.block[0],
-			 std::string("joints overlap by ") + share + " of the height of the zones behind in the mean, most of all " + described(overlaps.joint)
-			         + cure };
+			 "joints overlap by " + percent(overlaps.mean) + " of the height of the zones behind in the mean, most of all "
+			         + described(overlaps.joint) + cure };
 	}
 
-	Real turnover = 0;
+	Real turnover = a.state.accounts.released.turnover;
 	for (const MotionGroup& g : a.state.groups)
 		turnover += g.workTurnover;
 	for (const RigidBlock& r : a.state.rigid)

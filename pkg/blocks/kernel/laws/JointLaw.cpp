@@ -20,6 +20,10 @@ void validate(const JointParams& p)
 	notNegative(p.dilationLimitSlip, "dilationLimitSlip", "[m]");
 	for (Real tangent : { p.tanPhi, p.tanPhiResidual, p.tanDilation })
 		require(tangent >= 0 && std::isfinite(tangent), "a joint's friction and dilation angles must lie in [0, 90) degrees; tangent", tangent);
+	if (p.tanDilation > p.tanPhiResidual) // the work of the uplift against the pressure would exceed that of friction
+		throw std::invalid_argument(
+			"joint parameter dilationAngle must not exceed frictionAngleResidual (energy would come from nowhere), got "
+			+ shown(std::atan(p.tanDilation)) + " and " + shown(std::atan(p.tanPhiResidual)) + " rad");
 	require(p.cohesionResidual <= p.cohesion, "joint parameter cohesionResidual must not exceed cohesion [Pa]", p.cohesionResidual);
 	require(p.tensionResidual <= p.tension, "joint parameter tensionResidual must not exceed tension [Pa]", p.tensionResidual);
 }

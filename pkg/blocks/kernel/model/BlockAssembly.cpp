@@ -310,6 +310,16 @@ int BlockAssembly::addGroup(MotionGroup group)
 	return int(state.groups.size()) - 1;
 }
 
+void BlockAssembly::releaseGroup(int group)
+{
+	const MotionGroup& g        = state.groups[group];
+	ReleasedWork&      released = state.accounts.released;
+	released.work += g.work + g.pendingWork; // the half step since the last time of forces is past, too
+	released.turnover += g.workTurnover + std::abs(g.pendingWork);
+	state.groups.erase(state.groups.begin() + group);
+	updateMobility();
+}
+
 void BlockAssembly::updateMobility()
 {
 	for (int n = 0; n < nodeCount(); ++n)

@@ -81,6 +81,9 @@ struct BlockAssembly {
 	/// Joins degrees of freedom into a group that moves as one; a degree of freedom belongs to one group at most.
 	int addGroup(MotionGroup);
 
+	/// Sets the degrees of freedom of a group free; what it has done stays in the accounts.
+	void releaseGroup(int group);
+
 	/// Computes again what follows from the rest: zone gradients and volumes, columns, sides, mobility. After loading.
 	void rebuild();
 

@@ -32,4 +32,10 @@ struct MotionGroup {
 	}
 };
 
+/// What groups had done on the blocks by the time they were released [J].
+struct ReleasedWork {
+	Real work     = 0;
+	Real turnover = 0; ///< sum of |work| of the single steps
+};
+
 } // namespace blocks

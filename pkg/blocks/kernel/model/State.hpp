@@ -13,7 +13,8 @@ struct Accounts {
 	Real friction       = 0; ///< dissipated by broken joints; dilation's work against the pressure is taken off
 	Real fracture       = 0; ///< set free in the steps in which contact points broke
 	Real scaling        = 0; ///< minus the kinetic energy that masses have brought which were scaled anew
-	Real released       = 0; ///< work of groups that are no more
+
+	ReleasedWork released; ///< of groups that are no more
 };
 
 /// All that a step changes and the next one needs. It is saved, put back, compared and hashed as one.
