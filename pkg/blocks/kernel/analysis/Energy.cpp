@@ -19,6 +19,14 @@ Real zoneEnergy(const BlockAssembly& a)
 	return total;
 }
 
+Real sumOf(const std::vector<Real>& parts)
+{
+	Real sum = 0;
+	for (Real part : parts)
+		sum += part;
+	return sum;
+}
+
 Real jointEnergy(const BlockAssembly& a)
 {
 	Real sum = 0;

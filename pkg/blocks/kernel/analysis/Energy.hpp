@@ -6,6 +6,7 @@
 namespace blocks {
 
 Real zoneEnergy(const BlockAssembly&);              ///< elastic energy of the zones
+Real sumOf(const std::vector<Real>&);               ///< in their order
 Real jointEnergy(const BlockAssembly&);             ///< elastic energy of the joints' springs and of free contacts
 Real kineticEnergy(const BlockAssembly&);           ///< from the velocities at the last half step and the inertia
 Real gridPointsKineticEnergy(const BlockAssembly&); ///< ... without that of rigid blocks

@@ -25,11 +25,18 @@ struct JointParams {
 
 	bool operator==(const JointParams& o) const
 	{
-		return kn == o.kn && ks == o.ks && cohesion == o.cohesion && tanPhi == o.tanPhi && tension == o.tension && cohesionResidual == o.cohesionResidual
-			&& tanPhiResidual == o.tanPhiResidual && tensionResidual == o.tensionResidual && tanDilation == o.tanDilation
-			&& dilationLimitSlip == o.dilationLimitSlip;
+		return kn == o.kn && ks == o.ks && cohesion == o.cohesion && tanPhi == o.tanPhi && tension == o.tension
+			&& cohesionResidual == o.cohesionResidual && tanPhiResidual == o.tanPhiResidual && tensionResidual == o.tensionResidual
+			&& tanDilation == o.tanDilation && dilationLimitSlip == o.dilationLimitSlip;
 	}
 };
+
+/// What is left of a joint between blocks that were never bonded: friction.
+inline JointParams neverBonded(JointParams p)
+{
+	p.cohesionResidual = p.tensionResidual = 0;
+	return p;
+}
 
 /// Refuses properties that no joint can have.
 void validate(const JointParams&);

@@ -1,7 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
-#include <blocks/kernel/model/BlockAssembly.hpp>
 #include <blocks/kernel/laws/JointKinematics.hpp>
+#include <blocks/kernel/model/BlockAssembly.hpp>
 #include <numeric>
 
 namespace blocks {
@@ -162,7 +162,7 @@ void BlockAssembly::bond(std::vector<Segment> found)
 	rebuildJoints();
 }
 
-void BlockAssembly::setJoints(int first, int last, const JointParams& params, Joint status)
+int BlockAssembly::addKind(const JointParams& params)
 {
 	validate(params);
 	constexpr int remembered = 64; // where every joint has its own properties, looking for equal ones is in vain
@@ -170,12 +170,24 @@ void BlockAssembly::setJoints(int first, int last, const JointParams& params, Jo
 	const auto    known      = std::find(kinds.end() - std::min(int(kinds.size()), remembered), kinds.end(), params);
 	const int     kind       = int(known - kinds.begin());
 	if (known == kinds.end()) kinds.push_back(params);
+	return kind;
+}
+
+void BlockAssembly::setJoints(int first, int last, const JointParams& params, Joint status)
+{
+	const int kind = addKind(params);
 	for (int i = first; i < last; ++i) {
 		joints.kind[i] = kind;
 		for (int k : { 0, 1 })
 			state.status[2 * i + k] = status;
 	}
 	noteKinds(first, last);
+}
+
+void BlockAssembly::changeJoint(int joint, const JointParams& params)
+{
+	joints.kind[joint] = addKind(params);
+	noteKinds(joint, joint + 1);
 }
 
 void BlockAssembly::releaseJoint(int joint)
@@ -191,8 +203,8 @@ void BlockAssembly::noteKinds(int first, int last)
 		joints.columns.area[i] = state.released[i] ? 0 : joints.segments[i].area;
 	}
 	for (int b = first / Joints::batch; b * Joints::batch < last; ++b) {
-		const auto begin = joints.effective.begin() + b * Joints::batch;
-		const auto end   = joints.effective.begin() + std::min((b + 1) * Joints::batch, joints.count());
+		const auto begin      = joints.effective.begin() + b * Joints::batch;
+		const auto end        = joints.effective.begin() + std::min((b + 1) * Joints::batch, joints.count());
 		joints.kindOfBatch[b] = std::all_of(begin, end, [&](int kind) { return kind == *begin; }) ? *begin : mixedKinds;
 	}
 }
@@ -204,7 +216,7 @@ void BlockAssembly::rebuildZones(int firstBlock)
 	mesh.isFan.resize(blockCount());
 	for (int block = firstBlock; block < blockCount(); ++block) {
 		const int node = mesh.firstNode[block], corners = mesh.firstNode[block + 1] - node - 1, zone = mesh.firstZone[block];
-		bool      fan  = mesh.firstZone[block + 1] - zone == corners;
+		bool      fan = mesh.firstZone[block + 1] - zone == corners;
 		for (int z = zone; z < mesh.firstZone[block + 1]; ++z) {
 			const auto& n  = mesh.zoneNodes[z];
 			const Vec2 &x0 = mesh.reference[n[0]], &x1 = mesh.reference[n[1]], &x2 = mesh.reference[n[2]];
@@ -220,7 +232,7 @@ void BlockAssembly::rebuildZones(int firstBlock)
 void BlockAssembly::rebuildJoints()
 {
 	const int     count = joints.count(), batches = (count + Joints::batch - 1) / Joints::batch;
-	JointColumns& c     = joints.columns;
+	JointColumns& c = joints.columns;
 	for (auto* column : { &c.e1x, &c.e1y, &c.e2x, &c.e2y, &c.dx, &c.dy, &c.area })
 		column->resize(count);
 	for (int k : { 0, 1 })
@@ -234,8 +246,8 @@ void BlockAssembly::rebuildJoints()
 	for (int i = 0; i < count; ++i) {
 		const Segment& g  = joints.segments[i];
 		const Vec2     e1 = mesh.reference[g.node[1]] - mesh.reference[g.node[0]], e2 = mesh.reference[g.node[3]] - mesh.reference[g.node[2]];
-		const Vec2     d  = mesh.reference[g.node[2]] - mesh.reference[g.node[0]];
-		joints.node[i]    = g.node;
+		const Vec2     d = mesh.reference[g.node[2]] - mesh.reference[g.node[0]];
+		joints.node[i]   = g.node;
 		c.e1x[i] = e1.x(), c.e1y[i] = e1.y(), c.e2x[i] = e2.x(), c.e2y[i] = e2.y(), c.dx[i] = d.x(), c.dy[i] = d.y();
 		const JointFrame f = jointFrame(e1.x(), e1.y(), e2.x(), e2.y());
 		for (int k : { 0, 1 }) {

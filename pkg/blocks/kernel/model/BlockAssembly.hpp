@@ -19,6 +19,14 @@ struct Dissipated {
 	Real fracture = 0; ///< set free by contact points that broke
 };
 
+/// All contact points as they were at the last step.
+struct JointHistory {
+	std::vector<Real>  opening, slip, sigma, tau;
+	std::vector<Joint> status;
+
+	void take(const State& s) { opening = s.opening, slip = s.slip, sigma = s.sigma, tau = s.tau, status = s.status; }
+};
+
 /// Computed anew in each step.
 struct Forces {
 	std::vector<Vec2>                nodal; ///< unbalanced force of every grid point: zones, joints, contacts, loads [N]
@@ -28,6 +36,7 @@ struct Forces {
 	// ---- only with energy accounts
 	std::vector<Dissipated> dissipated; ///< by the joints of every batch
 	std::vector<Real>       zoneEnergy; ///< of every block's zones [J]
+	JointHistory            before;     ///< where a law does not book what it dissipates itself
 };
 
 struct BlockAssembly {
@@ -54,10 +63,7 @@ struct BlockAssembly {
 	/// Where a grid point is now [m].
 	Vec2 position(int node) const { return mesh.reference[node] + state.displacement[node]; }
 	/// From one grid point to another; exact far from the origin too, where positions are not [m].
-	Vec2 between(int from, int to) const
-	{
-		return mesh.reference[to] - mesh.reference[from] + (state.displacement[to] - state.displacement[from]);
-	}
+	Vec2 between(int from, int to) const { return mesh.reference[to] - mesh.reference[from] + (state.displacement[to] - state.displacement[from]); }
 	/// Puts a grid point somewhere [m].
 	void place(int node, const Vec2& where) { state.displacement[node] = where - mesh.reference[node]; }
 
@@ -66,14 +72,21 @@ struct BlockAssembly {
 
 	/// Adds a block and returns its index. `rings` are the boundary nodes, material on the left; triangles are counter-clockwise.
 	/// Without triangles the block is rigid: its mass is that of the area within its rings.
-	int addBlock(const std::vector<Vec2>& points, const std::vector<std::vector<int>>& rings, const std::vector<std::array<int, 3>>& triangles, int material);
+	int
+	addBlock(const std::vector<Vec2>& points, const std::vector<std::vector<int>>& rings, const std::vector<std::array<int, 3>>& triangles, int material);
 
 	/// Takes the segments that detectSegments found: sorts out pairs, sides and the distances at bonding. Properties are still missing.
 	void bond(std::vector<Segment>);
 
+	/// The number of a kind of joints, known or new; the properties are checked.
+	int addKind(const JointParams&);
+
 	/// Properties of joints [first, last), and whether they are whole. They are checked.
 	void setJoints(int first, int last, const JointParams&, Joint status = Joint::intact);
 	void setJoints(const JointParams& p) { setJoints(0, joints.count(), p); }
+
+	/// Other properties for a joint; what has broken stays broken.
+	void changeJoint(int joint, const JointParams&);
 
 	/// A joint's edges become a free contact: from here on the joint carries nothing. listSides() afterwards.
 	void releaseJoint(int joint);

@@ -53,8 +53,8 @@ namespace {
 	std::vector<std::array<int, 2>> bondedEdges(const BlockAssembly& a, const std::array<int, 2>& blocks)
 	{
 		std::vector<std::array<int, 2>> list;
-		const auto                      pair
-			= std::lower_bound(a.joints.pairs.begin(), a.joints.pairs.end(), blocks, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
+		const auto                      pair = std::lower_bound(
+                        a.joints.pairs.begin(), a.joints.pairs.end(), blocks, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
 		if (pair == a.joints.pairs.end() || pair->block != blocks) return list;
 		for (int s = pair->first; s < pair->last; ++s)
 			if (!a.state.released[s]) list.push_back(edgesOf(a, a.joints.segments[s]));
@@ -76,10 +76,10 @@ namespace {
 		auto                  old = contact.edges.begin();
 		for (int i = a.mesh.firstEdge[contact.block[0]]; i < a.mesh.firstEdge[contact.block[0] + 1]; ++i) {
 			const Vec2 a0 = a.position(a.mesh.edgeNodes[i][0]), a1 = a.position(a.mesh.edgeNodes[i][1]);
-			const Box   box = boxOf(a0, a1);
+			const Box  box = boxOf(a0, a1);
 			if (!box.meets(other, reach)) continue;
 			for (int j = a.mesh.firstEdge[contact.block[1]]; j < a.mesh.firstEdge[contact.block[1] + 1]; ++j) {
-				const Vec2 b0 = a.position(a.mesh.edgeNodes[j][0]), b1 = a.position(a.mesh.edgeNodes[j][1]);
+				const Vec2               b0 = a.position(a.mesh.edgeNodes[j][0]), b1 = a.position(a.mesh.edgeNodes[j][1]);
 				const std::array<int, 2> key { i, j };
 				while (old != contact.edges.end() && old->edge < key)
 					++old;
@@ -132,8 +132,7 @@ namespace {
 		for (int i : { 2 * joint, 2 * joint + 1 }) {
 			if (a.state.sigma[i] > 0) return Release::later; // residual tension stays with the point law
 			if (p.tanDilation > 0 && a.state.sigma[i] < 0    // so does a joint that goes on dilating
-			    && std::abs(a.state.slipPlastic[i])
-			            < std::min(p.dilationLimitSlip, dilatesFor * 2 * a.joints.segments[joint].area / a.thickness))
+			    && std::abs(a.state.slipPlastic[i]) < std::min(p.dilationLimitSlip, dilatesFor * 2 * a.joints.segments[joint].area / a.thickness))
 				return Release::later;
 		}
 		return Release::now;
@@ -187,7 +186,7 @@ namespace {
 		for (int b : f.blocksInContact) {
 			Real farthest = 0;
 			for (int n = a.mesh.firstNode[b]; n < a.mesh.firstNode[b + 1]; ++n) {
-				farthest              = std::max(farthest, (a.state.displacement[n] - f.odometer.seenAt[n]).squaredNorm());
+				farthest             = std::max(farthest, (a.state.displacement[n] - f.odometer.seenAt[n]).squaredNorm());
 				f.odometer.seenAt[n] = a.state.displacement[n];
 			}
 			f.odometer.path[b] += std::sqrt(farthest);
@@ -340,6 +339,16 @@ int contactOf(const BlockAssembly& a, int block1, int block2)
 	for (int i = f.firstOfBlock[key[0]]; i < f.firstOfBlock[key[0] + 1]; ++i)
 		if (a.state.contacts[f.ofBlock[i]].block == key) return f.ofBlock[i];
 	return -1;
+}
+
+void setGeneralContact(BlockAssembly& a, bool wanted)
+{
+	if (wanted == a.contacts.wanted) return;
+	for (const FreeContact& c : a.state.contacts)
+		if (!wanted && c.block[0] >= 0)
+			throw std::runtime_error("general contact cannot be switched off any more: blocks are in contact without a bond");
+	a.contacts.wanted = wanted;
+	rebuildContacts(a);
 }
 
 void prepareContacts(BlockAssembly& a)

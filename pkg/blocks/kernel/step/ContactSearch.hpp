@@ -6,6 +6,9 @@
 /// they were when neighbours were last looked for, and margins cover what they may have moved since.
 namespace blocks {
 
+/// Whether the scene has general contact. Without it broken joints keep their places.
+void setGeneralContact(BlockAssembly&, bool);
+
 /// Before forces: releases broken joints to free contacts and looks for neighbours, where something moved far or broke. Serial.
 void prepareContacts(BlockAssembly&);
 

@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
+#include <algorithm>
 #include <blocks/kernel/step/JointBatch.hpp>
 
 /// What joints dissipate in a step, by the trapezoidal rule: the work that their contact points took in less what their springs hold more.
@@ -13,7 +14,16 @@ struct BatchBefore {
 	Real  opening[size], slip[size], sigma[size], tau[size];
 	Joint status[size];
 
-	void take(const State&, int firstJoint, int count);
+	/// From columns of a state or a history.
+	template <class Columns> void take(const Columns& c, int firstJoint, int count)
+	{
+		const int from = 2 * firstJoint, n = 2 * count;
+		std::copy_n(c.opening.data() + from, n, opening);
+		std::copy_n(c.slip.data() + from, n, slip);
+		std::copy_n(c.sigma.data() + from, n, sigma);
+		std::copy_n(c.tau.data() + from, n, tau);
+		std::copy_n(c.status.data() + from, n, status);
+	}
 };
 
 /// Of joints first, first + 1, ..., whose new stresses are in the batch and whose new states are in the assembly [J].
@@ -21,5 +31,8 @@ Dissipated dissipatedIn(const BlockAssembly&, int first, int count, const BatchB
 
 /// Adds what the batches dissipated to the accounts, in their order.
 void bookDissipation(BlockAssembly&);
+
+/// The same, for all joints, where stresses came otherwise: from what they were to what they are.
+void bookDissipation(BlockAssembly&, const JointHistory& before);
 
 } // namespace blocks

@@ -67,6 +67,24 @@ void updateJointForces(BlockAssembly& a, JointRange range, [[maybe_unused]] int 
 	}
 }
 
+void advanceByRanges(BlockAssembly& a, const JointLawOnRange& law, bool account, [[maybe_unused]] int threads)
+{
+	if (account) a.forces.before.take(a.state);
+	const int parts = law.serial() ? 1 : threads;
+#pragma omp parallel for schedule(static) num_threads(parts) if (parts > 1)
+	for (int part = 0; part < parts; ++part) {
+		const int        batches = int(a.forces.broke.size());
+		auto             begin   = [&](int p) { return std::min(a.joints.count(), int(long(batches) * p / parts) * Joints::batch); };
+		const JointRange range { begin(part), part + 1 == parts ? a.joints.count() : begin(part + 1) };
+		updateKinematics(a, range);
+		law.advance(a, range);
+	}
+	updateJointForces(a, allJoints(a), threads);
+	for (auto& broke : a.forces.broke)
+		broke = true; // the law does not say which
+	if (account) bookDissipation(a, a.forces.before);
+}
+
 namespace step {
 
 	void gatherProperties(const Joints& joints, int first, int count, JointBatch& b)

@@ -32,7 +32,7 @@ void updateJointForces(BlockAssembly&, JointRange, int threads = 1);
 /// need not ask the law.
 struct Brittle {
 	static constexpr bool plainlyElastic = true;
-	JointStep operator()(const JointParams& p, const JointState& s, Real opening, Real slip) const { return advance(p, s, opening, slip); }
+	JointStep             operator()(const JointParams& p, const JointState& s, Real opening, Real slip) const { return advance(p, s, opening, slip); }
 };
 
 /// Works on a range of joints; one virtual call a range. A law of one's own may keep columns of its own, indexed by contact point.
@@ -41,7 +41,12 @@ public:
 	virtual ~JointLawOnRange() = default;
 	/// Stresses and states of the joints' contact points from openings and slips, all in a.state.
 	virtual void advance(BlockAssembly&, JointRange) const = 0;
+	/// Whether it wants all joints at once, from one thread.
+	virtual bool serial() const { return false; }
 };
+
+/// Motion, stresses and forces of all joints by such a law, range by range.
+void advanceByRanges(BlockAssembly&, const JointLawOnRange&, bool account, int threads);
 
 namespace step {
 	void gatherProperties(const Joints&, int first, int count, JointBatch&);
@@ -80,11 +85,40 @@ namespace step {
 				const JointStep now = law(params, s.joint(p), b.opening[k][i], b.slip[k][i]);
 				b.sigma[k][i]       = now.sigma;
 				b.tau[k][i]         = now.tau;
-				if (now.state.status != s.status[p]) a.forces.broke[first / Joints::batch] = true;
+				if (now.state.status != s.status[p])
+					__atomic_store_n(
+						&a.forces.broke[first / Joints::batch],
+						char(true),
+						__ATOMIC_RELAXED); // pairs of one batch may come from several threads
 				s.setJoint(p, now.state);
 			}
 		}
 		return false;
+	}
+
+	template <class Law> void advanceAll(BlockAssembly& a, const Law& law, bool account, [[maybe_unused]] int threads)
+	{
+		if (account) a.forces.dissipated.assign(a.forces.broke.size(), {});
+		const int batches = int(a.forces.broke.size());
+#pragma omp parallel num_threads(threads) if (threads > 1)
+		{
+			JointBatch b;
+#pragma omp for schedule(static)
+			for (int batch = 0; batch < batches; ++batch) {
+				const int first = batch * Joints::batch, count = std::min(Joints::batch, a.joints.count() - first);
+				gatherDisplacements(a, first, count, b);
+				moveJoints(a.joints.columns, first, count, b);
+				BatchBefore before;
+				if (account) before.take(a.state, first, count);
+				const bool elastic = step::advanceBatch(a, first, count, law, b);
+				if (account && !elastic) a.forces.dissipated[batch] = dissipatedIn(a, first, count, before, b);
+				loadEdges(a.joints.columns, first, count, b);
+				step::storeMotion(a, first, count, b);
+				step::storeStresses(a, first, count, b);
+				step::storeForces(a, first, count, b);
+			}
+		}
+		if (account) bookDissipation(a);
 	}
 
 	/// Calls work(first, count) for the batches that hold the range, each within one batch of Joints.
@@ -115,27 +149,10 @@ template <class Law> void advanceStresses(BlockAssembly& a, JointRange range, co
 /// a.state.accounts gets what was dissipated.
 template <class Law> void advanceJoints(BlockAssembly& a, const Law& law, bool account = false, [[maybe_unused]] int threads = 1)
 {
-	if (account) a.forces.dissipated.assign(a.forces.broke.size(), {});
-	const int batches = int(a.forces.broke.size());
-#pragma omp parallel num_threads(threads) if (threads > 1)
-	{
-		JointBatch b;
-#pragma omp for schedule(static)
-		for (int batch = 0; batch < batches; ++batch) {
-			const int first = batch * Joints::batch, count = std::min(Joints::batch, a.joints.count() - first);
-			gatherDisplacements(a, first, count, b);
-			moveJoints(a.joints.columns, first, count, b);
-			BatchBefore before;
-			if (account) before.take(a.state, first, count);
-			const bool elastic = step::advanceBatch(a, first, count, law, b);
-			if (account && !elastic) a.forces.dissipated[batch] = dissipatedIn(a, first, count, before, b);
-			loadEdges(a.joints.columns, first, count, b);
-			step::storeMotion(a, first, count, b);
-			step::storeStresses(a, first, count, b);
-			step::storeForces(a, first, count, b);
-		}
-	}
-	if (account) bookDissipation(a);
+	if constexpr (std::is_base_of_v<JointLawOnRange, Law>)
+		advanceByRanges(a, law, account, threads);
+	else
+		step::advanceAll(a, law, account, threads);
 }
 
 } // namespace blocks

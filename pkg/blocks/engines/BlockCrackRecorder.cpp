@@ -1,0 +1,88 @@
+// yade-blocks, GPL-2.0-or-later
+#include <blocks/engines/BlockCrackRecorder.hpp>
+#include <blocks/kernel/step/Joints.hpp>
+#include <core/Omega.hpp>
+#include <fstream>
+
+namespace yade {
+
+BlockCrackRecorder::~BlockCrackRecorder() = default;
+
+namespace {
+	const char* nameOf(int mode) { return mode == int(blocks::Joint::brokenInTension) ? "tension" : "shear"; }
+
+	string labelOf(const BlockModel& model, int block) { return model.materialLabels[model.assembly.mesh.blockMaterial[block]]; }
+}
+
+void BlockCrackRecorder::action()
+{
+	const BlockModel&            model = modelOf(scene).first;
+	const blocks::BlockAssembly& a     = model.assembly;
+	if (known.size() != a.state.status.size()) { // the first look: what is broken already is no event
+		known.clear();
+		for (blocks::Joint status : a.state.status)
+			known.push_back(int(status));
+		if (!fileName.empty()) std::ofstream(fileName) << "step time x y nx ny mode body1 body2 material1 material2\n";
+	}
+	bool takenBack = false; // a rescued state is older than what was seen: there are joints that are whole again
+	for (size_t i = 0; i < known.size() && !takenBack; ++i)
+		takenBack = known[i] != 0 && a.state.status[i] == blocks::Joint::intact;
+	if (takenBack) {
+		size_t kept = 0;
+		for (size_t e = 0; e < points.size(); ++e) {
+			if (a.state.status[points[e]] == blocks::Joint::intact) continue;
+			points[kept] = points[e], modes[kept] = modes[e], steps[kept] = steps[e], times[kept] = times[e], positions[kept] = positions[e];
+			++kept;
+		}
+		points.resize(kept), modes.resize(kept), steps.resize(kept), times.resize(kept), positions.resize(kept);
+	}
+	const size_t before = points.size();
+	for (size_t i = 0; i < a.state.status.size(); ++i) {
+		const int status = int(a.state.status[i]);
+		if (status == known[i]) continue;
+		const bool earlier = known[i] != 0; // statuses only grow, but for a rescue
+		known[i]           = status;
+		if (earlier) continue;
+		points.push_back(int(i));
+		modes.push_back(status);
+		steps.push_back(scene->iter);
+		times.push_back(scene->time);
+		positions.push_back(blocks::contactPosition(a, int(i)));
+	}
+	if (fileName.empty() || points.size() == before) return;
+	std::ofstream file(fileName, std::ios::app);
+	file.imbue(std::locale::classic());
+	file.precision(9);
+	for (size_t e = before; e < points.size(); ++e) {
+		const auto& g     = a.joints.segments[points[e] / 2];
+		const auto  frame = blocks::frameOf(a, points[e] / 2);
+		file << steps[e] << ' ' << times[e] << ' ' << positions[e].x() << ' ' << positions[e].y() << ' ' << frame.nx << ' ' << frame.ny << ' '
+		     << nameOf(modes[e]) << ' ' << model.firstBody + g.block[0] << ' ' << model.firstBody + g.block[1] << ' ' << labelOf(model, g.block[0])
+		     << ' ' << labelOf(model, g.block[1]) << '\n';
+	}
+	if (!file) throw std::runtime_error("BlockCrackRecorder.fileName: cannot write to " + fileName);
+}
+
+py::list BlockCrackRecorder::events() const
+{
+	py::list list;
+	if (points.empty()) return list;
+	const BlockModel& model = *BlockModel::of(Omega::instance().getScene().get());
+	for (size_t e = 0; e < points.size(); ++e) {
+		const auto& g = model.assembly.joints.segments[points[e] / 2];
+		py::dict    event;
+		event["step"]      = steps[e];
+		event["time"]      = times[e];
+		event["position"]  = positions[e];
+		event["mode"]      = nameOf(modes[e]);
+		event["point"]     = points[e];
+		event["ids"]       = py::make_tuple(model.firstBody + g.block[0], model.firstBody + g.block[1]);
+		event["materials"] = py::make_tuple(labelOf(model, g.block[0]), labelOf(model, g.block[1]));
+		list.append(event);
+	}
+	return list;
+}
+
+YADE_PLUGIN((BlockCrackRecorder));
+
+} // namespace yade

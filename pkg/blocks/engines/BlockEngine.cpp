@@ -1,0 +1,41 @@
+// yade-blocks, GPL-2.0-or-later
+#include <blocks/engines/BlockEngine.hpp>
+#include <chrono>
+#include <omp.h>
+#include <thread>
+
+namespace yade {
+
+BlockEngine::~BlockEngine() = default;
+
+std::pair<BlockModel&, bool> ModelOfScene::operator()(const Scene* scene)
+{
+	if (model && model->isIn(scene)) return { *model, false };
+	const auto& found   = BlockModel::of(scene);
+	const bool  changed = model && found != model;
+	model               = found;
+	return { *model, changed };
+}
+
+void holdBack() { std::this_thread::sleep_for(std::chrono::milliseconds(100)); }
+
+int threadsFor(const BlockModel& model, int ompThreads)
+{
+	constexpr int zonesPerThread = 3000; // below, starting a thread costs more than it saves
+	const int     available      = ompThreads > 0 ? std::min(ompThreads, omp_get_max_threads()) : omp_get_max_threads();
+	return std::max(1, std::min(available, model.assembly.zoneCount() / zonesPerThread));
+}
+
+void BlockEngine::action()
+{
+	visibly([&] {
+		auto [model, changed] = modelOf(scene);
+		if (changed) newScene();
+		model.throwComplaint();
+		step(model);
+	});
+}
+
+YADE_PLUGIN((BlockEngine));
+
+} // namespace yade

@@ -1,0 +1,49 @@
+// yade-blocks, GPL-2.0-or-later
+#include <blocks/engines/BlockLaw.hpp>
+#include <blocks/python/Numpy.hpp>
+
+namespace yade {
+
+BlockLaw::~BlockLaw() = default;
+NumpyLaw::~NumpyLaw() = default;
+
+void BlockLaw::advance(BlockModel&, blocks::JointRange) const
+{
+	throw std::runtime_error("BlockLoop.law: " + getClassName() + " has no law; derive from BlockLaw in C++, or use NumpyLaw(function)");
+}
+
+void NumpyLaw::pyHandleCustomCtorArgs(py::tuple& args, py::dict&)
+{
+	if (py::len(args) == 0) return;
+	if (py::len(args) > 1) throw std::invalid_argument("NumpyLaw takes one function, got " + std::to_string(py::len(args)) + " arguments");
+	function = args[0];
+	args     = py::tuple();
+}
+
+void NumpyLaw::advance(BlockModel& model, blocks::JointRange) const
+{
+	struct Lock {
+		PyGILState_STATE state = PyGILState_Ensure();
+		~Lock() { PyGILState_Release(state); }
+	} lock;
+	if (function.is_none()) throw std::runtime_error("NumpyLaw.function is None: functions are not saved, give it anew after O.load");
+	auto&    s = model.assembly.state;
+	py::dict columns;
+	columns["opening"]     = numpyOf(s.opening, false);
+	columns["slip"]        = numpyOf(s.slip, false);
+	columns["sigma"]       = numpyOf(s.sigma, true);
+	columns["tau"]         = numpyOf(s.tau, true);
+	columns["slipPlastic"] = numpyOf(s.slipPlastic, true);
+	columns["uplift"]      = numpyOf(s.uplift, true);
+	columns["status"]      = numpyOf(s.status, true);
+	try {
+		function(columns);
+	} catch (const py::error_already_set&) {
+		PyErr_Print(); // YADE cannot show Python's own errors
+		throw std::runtime_error("NumpyLaw.function has failed; its error is printed above");
+	}
+}
+
+YADE_PLUGIN((BlockLaw)(NumpyLaw));
+
+} // namespace yade

@@ -1,0 +1,43 @@
+// yade-blocks, GPL-2.0-or-later
+#include <blocks/engines/BlockLoop.hpp>
+#include <blocks/kernel/step/Step.hpp>
+#include <blocks/views/ContactViews.hpp>
+
+namespace yade {
+
+BlockLoop::~BlockLoop() = default;
+
+namespace {
+	/// A BlockLaw as the kernel calls it.
+	class LawOnRange : public blocks::JointLawOnRange {
+	public:
+		LawOnRange(const BlockLaw& l, BlockModel& m)
+			: law(l)
+			, model(m)
+		{
+		}
+		void advance(blocks::BlockAssembly&, blocks::JointRange range) const override { law.advance(model, range); }
+		bool serial() const override { return law.serial(); }
+
+	private:
+		const BlockLaw& law;
+		BlockModel&     model;
+	};
+}
+
+void BlockLoop::computeForces(BlockModel& model, int threads)
+{
+	blocks::BlockAssembly& a = model.assembly;
+	model.requireProperties();
+	if (contact != a.contacts.wanted) blocks::setGeneralContact(a, contact);
+	if (law) {
+		const LawOnRange own(*law, model);
+		blocks::computeForces(a, own, scene->dt, scene->trackEnergy, threads);
+	} else
+		blocks::computeForces(a, blocks::Brittle {}, scene->dt, scene->trackEnergy, threads);
+	if (contact) showContacts(scene, model);
+}
+
+YADE_PLUGIN((BlockLoop));
+
+} // namespace yade

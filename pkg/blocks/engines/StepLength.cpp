@@ -1,0 +1,49 @@
+// yade-blocks, GPL-2.0-or-later
+#include <blocks/engines/RigidBodies.hpp>
+#include <blocks/engines/StepLength.hpp>
+#include <blocks/kernel/analysis/Energy.hpp>
+#include <blocks/kernel/step/TimeStep.hpp>
+#include <core/EnergyTracker.hpp>
+#include <iostream>
+
+namespace yade {
+
+Real StepLength::adjust(Scene* scene, BlockModel& model, Real safety, bool quasiStatic, const char* engine)
+{
+	blocks::BlockAssembly& a        = model.assembly;
+	Real&                  scaling  = a.state.accounts.scaling;
+	const bool             tracking = scene->trackEnergy;
+	noteFreedom(scene, model);
+	if (tracking && scalingId < 0) scene->energy->set(scaling, "blockScaling", scalingId);
+	if (model.stiffnessVersion() == doneVersion && scene->dt == doneDt && safety == doneSafety && quasiStatic == doneQuasiStatic) return limit;
+	blocks::require(safety > 0 && safety <= 0.95, std::string(engine) + ".safety must lie in (0, 0.95]", safety);
+
+	const auto& stiffness = model.stiffness();
+	limit                 = std::min(blocks::stableTimeStep(a, stiffness, a.mesh.mass), blocks::rigidTimeStep(a, stiffness, blocks::Masses::actual));
+	const Real kinetic    = tracking ? blocks::gridPointsKineticEnergy(a) : 0;
+	if (quasiStatic) {
+		blocks::require(scene->dt > 0 && std::isfinite(scene->dt), "O.dt must be positive and finite [s]", scene->dt);
+		blocks::scaleInertia(a, stiffness, scene->dt, safety);
+		blocks::scaleRigidInertia(a, stiffness, scene->dt, safety);
+	} else {
+		if (std::isfinite(limit))
+			scene->dt = safety * limit;
+		else if (toldDt != scene->dt) { // only rigid blocks, and they touch nothing
+			toldDt = scene->dt;
+			std::cerr << "WARN " << engine << ": nothing limits the time step, as no block has zones and none touches another; O.dt stays "
+				  << blocks::shown(scene->dt) << " s unless you set it" << std::endl;
+		}
+		a.state.inertia = a.mesh.mass;
+		a.updateMobility();
+		blocks::restoreRigidInertia(a);
+	}
+	if (tracking) scene->energy->set(scaling -= blocks::gridPointsKineticEnergy(a) - kinetic, "blockScaling", scalingId);
+	writeMasses(scene, model);
+	doneVersion     = model.stiffnessVersion();
+	doneDt          = scene->dt;
+	doneSafety      = safety;
+	doneQuasiStatic = quasiStatic;
+	return limit;
+}
+
+} // namespace yade

@@ -1,0 +1,21 @@
+// yade-blocks, GPL-2.0-or-later
+#include <blocks/kernel/step/Contacts.hpp>
+#include <blocks/kernel/step/Joints.hpp>
+#include <blocks/native/Law2_BlockGeom_JointPhys_MohrCoulomb.hpp>
+
+namespace yade {
+
+Law2_BlockGeom_JointPhys_MohrCoulomb::~Law2_BlockGeom_JointPhys_MohrCoulomb() = default;
+
+bool Law2_BlockGeom_JointPhys_MohrCoulomb::go(shared_ptr<IGeom>& geom, shared_ptr<IPhys>&, Interaction*)
+{
+	const auto* g = static_cast<const BlockGeom*>(geom.get());
+	auto&       a = g->model->assembly;
+	if (g->pair >= 0) blocks::advanceStresses(a, blocks::jointsOf(a, g->pair), blocks::Brittle {});
+	if (g->contact >= 0) blocks::advanceContact(a, g->contact, scene->dt);
+	return g->pair >= 0 || g->contact >= 0; // blocks that have parted are no more
+}
+
+YADE_PLUGIN((Law2_BlockGeom_JointPhys_MohrCoulomb));
+
+} // namespace yade

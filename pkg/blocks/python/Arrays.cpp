@@ -1,0 +1,201 @@
+// yade-blocks, GPL-2.0-or-later
+#include <blocks/kernel/analysis/Energy.hpp>
+#include <blocks/kernel/geometry/Zoning.hpp>
+#include <blocks/kernel/step/Joints.hpp>
+#include <blocks/kernel/step/ZoneForces.hpp>
+#include <blocks/python/ModelPython.hpp>
+#include <blocks/python/Numpy.hpp>
+
+/// The model's arrays and what is measured on them.
+namespace yade {
+
+namespace np = boost::python::numpy;
+using blocks::BlockAssembly;
+using blocks::Vec2;
+
+namespace {
+
+	enum class Use { state, result }; ///< scripts may write the one but not the other
+
+	/// `columns` numbers of each item, from `offset` bytes within it: a numpy view that keeps the model alive. A copy as long
+	/// as the model still grows, which moves its memory.
+	template <class Number, class Item> py::object view(const py::object& self, std::vector<Item>& items, int columns, Use use, size_t offset = 0)
+	{
+		startNumpy();
+		static Number nothing {};
+		char*         data  = items.empty() ? reinterpret_cast<char*>(&nothing) : reinterpret_cast<char*>(items.data()) + offset;
+		py::tuple     shape = columns == 1 ? py::make_tuple(items.size()) : py::make_tuple(items.size(), columns);
+		py::tuple     steps = columns == 1 ? py::make_tuple(sizeof(Item)) : py::make_tuple(sizeof(Item), sizeof(Number));
+		py::object    array = np::from_data(data, np::dtype::get_builtin<Number>(), shape, steps, self);
+		const bool    grows = py::extract<BlockModel&>(self)().firstBody < 0;
+		if (grows) array = array.attr("copy")();
+		if (grows || use == Use::result) array.attr("setflags")(false);
+		return array;
+	}
+
+	BlockAssembly& arrays(const py::object& self) { return py::extract<BlockModel&>(self)().assembly; }
+
+	py::object zoneStress(const py::object& self)
+	{
+		BlockAssembly& a = arrays(self);
+		startNumpy();
+		np::ndarray out  = np::empty(py::make_tuple(a.zoneCount(), 3), np::dtype::get_builtin<Real>());
+		Real*       data = reinterpret_cast<Real*>(out.get_data());
+		for (int block = 0; block < a.blockCount(); ++block)
+			for (int z = a.mesh.firstZone[block]; z < a.mesh.firstZone[block + 1]; ++z) {
+				const blocks::ZoneStress s = blocks::cauchyStress(a, block, z);
+				data[3 * z] = s.sxx, data[3 * z + 1] = s.syy, data[3 * z + 2] = s.sxy;
+			}
+		return out;
+	}
+
+	py::object cornerTriangles(const py::object& self, int block)
+	{
+		BlockAssembly& a = arrays(self);
+		if (block < 0 || block >= a.blockCount())
+			throw std::invalid_argument(
+				"BlockModel.cornerTriangles: block must lie in [0, " + std::to_string(a.blockCount()) + "), got " + std::to_string(block));
+		std::vector<int>          corners; // grid points of the rings, one ring after the other
+		std::vector<blocks::Ring> rings;
+		for (int e = a.mesh.firstEdge[block], first = -1; e < a.mesh.firstEdge[block + 1]; ++e) {
+			const auto [node, next] = a.mesh.edgeNodes[e];
+			if (first < 0) rings.emplace_back(), first = node;
+			rings.back().push_back(a.mesh.reference[node]);
+			corners.push_back(node);
+			if (next == first) first = -1;
+		}
+		const blocks::Zones zones = blocks::cornerZones(blocks::Polygon { rings[0], { rings.begin() + 1, rings.end() } });
+		startNumpy();
+		np::ndarray out  = np::empty(py::make_tuple(zones.triangles.size(), 3), np::dtype::get_builtin<int>());
+		int*        data = reinterpret_cast<int*>(out.get_data());
+		for (const auto& triangle : zones.triangles)
+			for (int corner : triangle)
+				*data++ = corners[corner];
+		return out;
+	}
+
+	py::object contactPositions(const py::object& self)
+	{
+		BlockAssembly& a = arrays(self);
+		startNumpy();
+		np::ndarray out  = np::empty(py::make_tuple(a.state.status.size(), 2), np::dtype::get_builtin<Real>());
+		Real*       data = reinterpret_cast<Real*>(out.get_data());
+		for (size_t i = 0; i < a.state.status.size(); ++i) {
+			const Vec2 x = blocks::contactPosition(a, int(i));
+			data[2 * i] = x.x(), data[2 * i + 1] = x.y();
+		}
+		return out;
+	}
+
+	py::object position(const py::object& self)
+	{
+		BlockAssembly& a = arrays(self);
+		startNumpy();
+		np::ndarray out  = np::empty(py::make_tuple(a.nodeCount(), 2), np::dtype::get_builtin<Real>());
+		Real*       data = reinterpret_cast<Real*>(out.get_data());
+		for (int n = 0; n < a.nodeCount(); ++n) {
+			const Vec2 x = a.position(n);
+			data[2 * n] = x.x(), data[2 * n + 1] = x.y();
+		}
+		out.attr("setflags")(false);
+		return out;
+	}
+
+	py::object normals(const py::object& self)
+	{
+		BlockAssembly& a = arrays(self);
+		startNumpy();
+		np::ndarray out  = np::empty(py::make_tuple(a.joints.count(), 2), np::dtype::get_builtin<Real>());
+		Real*       data = reinterpret_cast<Real*>(out.get_data());
+		for (int i = 0; i < a.joints.count(); ++i) {
+			const auto f = blocks::frameOf(a, i);
+			data[2 * i] = f.nx, data[2 * i + 1] = f.ny;
+		}
+		return out;
+	}
+
+	/// Openings and slips of released joints, which no step follows, as they are now.
+	template <std::vector<Real> blocks::State::*column> py::object motion(const py::object& self)
+	{
+		BlockAssembly& a = arrays(self);
+		for (int i = 0; i < a.joints.count(); ++i)
+			if (a.state.released[i]) blocks::updateKinematics(a, { i, i + 1 });
+		return view<Real>(self, a.state.*column, 1, Use::result);
+	}
+
+	py::dict zoneQuality(const BlockModel& m)
+	{
+		if (m.assembly.zoneCount() == 0) throw std::runtime_error("BlockModel.zoneQuality: the model has no zones yet");
+		const auto q = blocks::quality({ m.assembly.mesh.reference, {}, m.assembly.mesh.zoneNodes });
+		py::dict   out;
+		out["minAngle"] = q.minAngle, out["maxAngle"] = q.maxAngle;
+		out["minArea"] = q.minArea, out["maxArea"] = q.maxArea;
+		out["worstAspect"] = q.worstAspect;
+		return out;
+	}
+
+	int  blockCount(const BlockModel& m) { return m.assembly.blockCount(); }
+	int  nodeCount(const BlockModel& m) { return m.assembly.nodeCount(); }
+	int  zoneCount(const BlockModel& m) { return m.assembly.zoneCount(); }
+	int  contactCount(const BlockModel& m) { return m.assembly.pointCount(); }
+	Real unbalancedRatio(const BlockModel& m, Real floor) { return blocks::unbalancedRatio(m.assembly, floor); }
+	Real kineticEnergy(const BlockModel& m) { return blocks::kineticEnergy(m.assembly); }
+
+} // namespace
+
+void defineArrays(PythonModel& c)
+{
+	using py::arg;
+	// clang-format off
+	c.def("unbalancedRatio",
+	             &unbalancedRatio,
+	             (arg("floor") = 0.),
+	             "Sum of unbalanced |force| over free degrees of freedom (of rigid blocks: of their bodies, without moments) by twice the sum of contact "
+	             "|forces|, the latter at least floor [N]. YADE's utils.unbalancedForce() knows nothing of grid points.")
+		.def("kineticEnergy", &kineticEnergy, "Kinetic energy, with the scaled masses if masses are scaled [J].")
+		.def("zoneStress",
+	             py::make_function(&zoneStress),
+	             "Cauchy stress of every zone: sxx, syy, sxy, tension positive; shape (zones, 3) [Pa]. A copy.")
+		.def("zoneQuality",
+	             &zoneQuality,
+	             "Quality of the mesh, a dictionary: minAngle, maxAngle [rad], minArea, maxArea [m2], worstAspect (longest edge by least height, 1 for an "
+	             "equilateral triangle).")
+		.def("cornerTriangles",
+	             &cornerTriangles,
+	             (arg("block")),
+	             "Triangles between the corners of a block and of its holes (constrained Delaunay), to draw rigid blocks, which have no zones: grid "
+	             "points, counter-clockwise, shape (triangles, 3). A copy. "
+	             "Errors: ValueError for a block that is not there.")
+		.def("contactPositions", py::make_function(&contactPositions), "Positions of the contact points, shape (contact points, 2) [m]. A copy.")
+		.add_property("blockCount", &blockCount, "Number of blocks.")
+		.add_property("nodeCount", &nodeCount, "Number of grid points.")
+		.add_property("zoneCount", &zoneCount, "Number of zones.")
+		.add_property("contactCount", &contactCount, "Number of contact points.")
+		.add_property("displacement", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).state.displacement, 2, Use::state); }), "Displacements of the grid points since the reference positions, shape (grid points, 2) [m].")
+		.add_property("reference", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).mesh.reference, 2, Use::result); }), "Grid points' positions without stress, shape (grid points, 2) [m].")
+		.add_property("velocity", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).state.velocity, 2, Use::state); }), "Grid points' velocities half a step ago, shape (grid points, 2) [m/s].")
+		.add_property("force", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).forces.nodal, 2, Use::result); }), "Grid points' unbalanced forces, shape (grid points, 2) [N].")
+		.add_property("mass", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).mesh.mass, 1, Use::result); }), "Grid points' true masses; 0 on rigid blocks, whose body has it all [kg].")
+		.add_property("inertia", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).state.inertia, 1, Use::result); }), "Grid points' masses as they resist motion, scaled if BlockMotion scales them [kg].")
+		.add_property("zoneNodes", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).mesh.zoneNodes, 3, Use::result); }), "Grid points of every zone, counter-clockwise, shape (zones, 3).")
+		.add_property("zoneVolume", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).mesh.zoneVolume, 1, Use::result); }), "Volumes of the zones [m3].")
+		.add_property("firstNode", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).mesh.firstNode, 1, Use::result); }), "First grid point of every block, and their number at the end.")
+		.add_property("firstZone", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).mesh.firstZone, 1, Use::result); }), "First zone of every block, and their number at the end.")
+		.add_property("firstEdge", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).mesh.firstEdge, 1, Use::result); }), "First boundary edge of every block, and their number at the end.")
+		.add_property("blockMaterial", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).mesh.blockMaterial, 1, Use::result); }), "Material of every block, an index into materialLabels.")
+		.add_property("edgeNodes", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).mesh.edgeNodes, 2, Use::result); }), "Grid points of the boundary edges, material on the left, shape (edges, 2).")
+		.add_property("segmentNodes", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).joints.segments, 4, Use::result, offsetof(blocks::Segment, node)); }), "Edge a1, b1 of the first and a2, b2 of the second block of every joint, shape (segments, 4).")
+		.add_property("segmentBlocks", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).joints.segments, 2, Use::result, offsetof(blocks::Segment, block)); }), "The two blocks of every joint, shape (segments, 2).")
+		.add_property("segmentParameters", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).joints.segments, 4, Use::result, offsetof(blocks::Segment, s1)); }), "Where the two contact points are along the first edge, then along the second (0 at a, 1 at b), shape (segments, 4).")
+		.add_property("segmentArea", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).joints.columns.area, 1, Use::result); }), "Area of each of the two contact points of every joint; 0 once it has broken and its edges are a free contact, which has all that they carry [m2].")
+		.add_property("position", py::make_function(&position), "Grid points' positions, shape (grid points, 2) [m]. A copy that cannot be written: write to displacement.")
+		.add_property("normal", py::make_function(&normals), "Unit normals of the joints, out of the first block, shape (segments, 2). A copy.")
+		.add_property("pointOpening", py::make_function(&motion<&blocks::State::opening>), "Openings of the contact points, two a joint [m].")
+		.add_property("pointSlip", py::make_function(&motion<&blocks::State::slip>), "Slips of the contact points [m].")
+		.add_property("pointSigma", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).state.sigma, 1, Use::result); }), "Normal stresses of the contact points, tension positive [Pa].")
+		.add_property("pointTau", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).state.tau, 1, Use::result); }), "Shear stresses of the contact points [Pa].")
+		.add_property("pointStatus", py::make_function(+[](py::object self) -> py::object { return view<std::uint8_t>(self, arrays(self).state.status, 1, Use::result); }), "0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded.");
+	// clang-format on
+}
+
+} // namespace yade

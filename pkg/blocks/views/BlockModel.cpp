@@ -1,0 +1,316 @@
+// yade-blocks, GPL-2.0-or-later
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <blocks/kernel/model/ContactDetection.hpp>
+#include <blocks/kernel/step/TimeStep.hpp>
+#include <blocks/views/BlockModel.hpp>
+#include <blocks/views/JointPhys.hpp>
+#include <core/Body.hpp>
+#include <core/BodyContainer.hpp>
+#include <core/Interaction.hpp>
+#include <core/InteractionContainer.hpp>
+#include <core/Omega.hpp>
+
+namespace yade {
+
+BlockModel::~BlockModel() = default;
+
+std::atomic<long> BlockModel::lastVersion { 0 };
+
+void BlockModel::postLoad(BlockModel&)
+{
+	const Real          wanted = thickness;
+	const blocks::Plane plane  = planeStress ? blocks::Plane::stress : blocks::Plane::strain;
+	thickness                  = assembly.thickness; // what is refused must not stay
+	planeStress                = assembly.plane == blocks::Plane::stress;
+	blocks::require(wanted > 0 && std::isfinite(wanted), "BlockModel.thickness must be positive and finite [m]", wanted);
+	if (assembly.blockCount() > 0 && (wanted != assembly.thickness || plane != assembly.plane))
+		throw std::invalid_argument("BlockModel.thickness and BlockModel.planeStress must be set before the first block is added");
+	assembly.thickness = thickness = wanted;
+	assembly.plane                 = plane;
+	planeStress                    = plane == blocks::Plane::stress;
+	assembly.strain                = smallStrain ? blocks::Strain::small : blocks::Strain::large;
+	stiffnessChanged();
+}
+
+const shared_ptr<BlockModel>& BlockModel::of(const Scene* scene)
+{
+	for (const auto& body : *scene->bodies)
+		if (body && body->shape)
+			if (const auto* block = dynamic_cast<const Block*>(body->shape.get()))
+				if (block->model) return block->model;
+	throw std::runtime_error("no blocks in the scene: build a BlockModel and call its insert() before the first step");
+}
+
+const vector<Real>& BlockModel::stiffness()
+{
+	if (knownVersion != version) {
+		knownVersion = version;
+		if (int(zoneStiffness.size()) != assembly.nodeCount()) zoneStiffness = blocks::zoneStiffness(assembly);
+		knownStiffness = blocks::nodalStiffness(assembly, zoneStiffness);
+	}
+	return knownStiffness;
+}
+
+void BlockModel::complain(const std::string& sentence)
+{
+	const std::lock_guard<std::mutex> lock(complaintMutex);
+	if (complaint.empty() || sentence < complaint) complaint = sentence; // the same one, whichever thread comes first
+}
+
+void BlockModel::throwComplaint()
+{
+	if (complaint.empty()) return;
+	const std::string sentence = std::move(complaint);
+	complaint.clear();
+	throw std::runtime_error(sentence);
+}
+
+int BlockModel::materialIndex(const std::string& label)
+{
+	const auto known = std::find(materialLabels.begin(), materialLabels.end(), label);
+	if (known != materialLabels.end()) return int(known - materialLabels.begin());
+
+	for (const auto& material : Omega::instance().getScene()->materials)
+		if (material->label == label) {
+			const auto* mat = dynamic_cast<const BlockMat*>(material.get());
+			if (!mat) throw std::invalid_argument("material \"" + label + "\" must be a BlockMat, got " + material->getClassName());
+			const int index = assembly.addMaterial({ mat->young, mat->poisson, mat->density });
+			materialLabels.push_back(label);
+			return index;
+		}
+	throw std::invalid_argument("no material labelled \"" + label + "\" in O.materials: append a BlockMat(label=\"" + label + "\", ...) first");
+}
+
+namespace {
+	/// Whether a point is strictly inside a ring, by the number of edges to its right.
+	bool inside(const blocks::Vec2& p, const blocks::Ring& ring)
+	{
+		bool odd = false;
+		for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
+			if ((ring[i].y() > p.y()) != (ring[j].y() > p.y())
+			    && p.x() < ring[i].x() + (p.y() - ring[i].y()) / (ring[j].y() - ring[i].y()) * (ring[j].x() - ring[i].x()))
+				odd = !odd;
+		return odd;
+	}
+
+	/// Whether p is inside a polygon and farther from its outline than `reach`.
+	bool strictlyInside(const blocks::Vec2& p, const blocks::Polygon& polygon, Real reach)
+	{
+		bool in = inside(p, polygon.outer), near = false;
+		for (const auto& hole : polygon.holes)
+			in = in && !inside(p, hole);
+		auto look = [&](const blocks::Ring& ring) {
+			for (size_t i = 0; i < ring.size(); ++i) {
+				const blocks::Vec2 a = ring[i], along = ring[(i + 1) % ring.size()] - a;
+				const Real         s = std::clamp((p - a).dot(along) / along.squaredNorm(), Real(0), Real(1));
+				near                 = near || (p - a - s * along).norm() <= reach;
+			}
+		};
+		if (in) look(polygon.outer);
+		if (in)
+			for (const auto& hole : polygon.holes)
+				look(hole);
+		return in && !near;
+	}
+
+	/// Whether a piece of a's outline, cut where the two outlines meet, lies inside b.
+	bool enters(const blocks::Polygon& a, const blocks::Polygon& b, Real reach)
+	{
+		vector<const blocks::Ring*> outlines { &b.outer };
+		for (const auto& hole : b.holes)
+			outlines.push_back(&hole);
+		for (size_t i = 0; i < a.outer.size(); ++i) {
+			const blocks::Vec2 p = a.outer[i], along = a.outer[(i + 1) % a.outer.size()] - p;
+			vector<Real>       cuts { 0, 1 };
+			for (const auto* ring : outlines)
+				for (size_t j = 0; j < ring->size(); ++j) {
+					const blocks::Vec2 q = (*ring)[j], other = (*ring)[(j + 1) % ring->size()] - q;
+					const Real         det = blocks::cross(along, other);
+					if (det != 0) cuts.push_back(blocks::cross(q - p, other) / det);
+					cuts.push_back((q - p).dot(along) / along.squaredNorm()); // vertices on collinear edges
+				}
+			std::sort(cuts.begin(), cuts.end());
+			for (size_t k = 1; k < cuts.size(); ++k) {
+				const Real middle = (cuts[k - 1] + cuts[k]) / 2;
+				if (cuts[k - 1] >= 0 && cuts[k] <= 1 && cuts[k] > cuts[k - 1] && strictlyInside(p + middle * along, b, reach)) return true;
+			}
+		}
+		return false;
+	}
+}
+
+void BlockModel::requireFree(const blocks::Polygon& region) const
+{
+	using Box  = Eigen::AlignedBox<Real, 2>;
+	auto boxOf = [](const blocks::Polygon& polygon) {
+		Box box;
+		for (const auto& p : polygon.outer)
+			box.extend(p);
+		return box;
+	};
+	const Box  box   = boxOf(region);
+	const Real reach = 1e-6 * box.diagonal().norm(); // as near as that is touching
+	for (size_t i = 0; i < regions.size(); ++i)
+		if (box.intersects(boxOf(regions[i])) && (enters(region, regions[i], reach) || enters(regions[i], region, reach)))
+			throw std::invalid_argument("regions must not overlap: the new one overlaps region " + std::to_string(i) + " (the first is 0)");
+}
+
+void BlockModel::requireOpen(const char* what) const
+{
+	if (firstBody >= 0) throw std::runtime_error(std::string(what) + " must come before BlockModel.insert(): the arrays are in use by now");
+}
+
+bool BlockModel::isIn(const Scene* scene) const
+{
+	if (firstBody < 0 || size_t(firstBody) >= scene->bodies->size()) return false;
+	const auto& body  = (*scene->bodies)[firstBody];
+	const auto* block = body ? dynamic_cast<const Block*>(body->shape.get()) : nullptr;
+	return block && block->model.get() == this;
+}
+
+int BlockModel::bond(const vector<shared_ptr<JointMat>>& list, Real tolerance)
+{
+	requireOpen("BlockModel.bond");
+	blocks::BlockAssembly& a         = assembly;
+	const int              materials = int(materialLabels.size());
+	auto                   found     = blocks::detectSegments(a, tolerance);
+	if (!list.empty())
+		for (const blocks::Segment& g : found) {
+			const string &first = materialLabels[a.mesh.blockMaterial[g.block[0]]], &second = materialLabels[a.mesh.blockMaterial[g.block[1]]];
+			if (!jointBetween(list, first, second))
+				throw std::invalid_argument(
+					"BlockModel.bond: joints has no JointMat for the pair of materials \"" + std::min(first, second) + "\" and \""
+					+ std::max(first, second) + "\", whose blocks touch");
+		}
+	for (const auto& joint : list) // a label that no block has is a mistake
+		for (const string& label : { joint->material1, joint->material2 })
+			if (std::find(materialLabels.begin(), materialLabels.end(), label) == materialLabels.end())
+				throw std::invalid_argument("BlockModel.bond: a JointMat names the material \"" + label + "\", which no block has");
+	a.bond(std::move(found));
+	jointMats = list;
+	a.joints.ofMaterials.assign(materials * materials, 0);
+	for (const auto& joint : list) {
+		auto index = [&](const string& label) { return int(std::find(materialLabels.begin(), materialLabels.end(), label) - materialLabels.begin()); };
+		const int first = index(joint->material1), second = index(joint->material2), kind = a.addKind(blocks::neverBonded(joint->params()));
+		a.joints.ofMaterials[first * materials + second] = a.joints.ofMaterials[second * materials + first] = kind;
+	}
+	if (!list.empty())
+		for (size_t pair = 0; pair < a.joints.pairs.size(); ++pair) {
+			const auto&     block = a.joints.pairs[pair].block;
+			const JointMat& joint
+				= *jointBetween(list, materialLabels[a.mesh.blockMaterial[block[0]]], materialLabels[a.mesh.blockMaterial[block[1]]]);
+			setJoint(int(pair), joint.params(), joint.bonded);
+		}
+	return int(a.joints.pairs.size());
+}
+
+void BlockModel::setJoint(int pair, const blocks::JointParams& params, bool bonded)
+{
+	const std::lock_guard<std::mutex> lock(complaintMutex);
+	const auto&                       p = assembly.joints.pairs[pair];
+	assembly.setJoints(p.first, p.last, params, bonded ? blocks::Joint::intact : blocks::Joint::unbonded);
+	stiffnessChanged();
+}
+
+void BlockModel::requireProperties()
+{
+	if (propertiesKnown == version) return;
+	const auto& joints = assembly.joints;
+	for (int i = 0; i < joints.count(); ++i)
+		if (joints.kind[i] == 0)
+			throw std::runtime_error(
+				"the joint between blocks " + std::to_string(joints.segments[i].block[0]) + " and "
+				+ std::to_string(joints.segments[i].block[1])
+				+ " has no properties: give JointMats to BlockModel.bond(), or use an InteractionLoop with Ip2_BlockMat_BlockMat_JointPhys and "
+			          "BlockForces");
+	propertiesKnown = version;
+}
+
+void BlockModel::writeCentroids(Scene* scene)
+{
+	for (int i = 0; i < assembly.blockCount(); ++i) {
+		const auto& body = (*scene->bodies)[firstBody + i];
+		if (!body) throw std::runtime_error("body " + std::to_string(firstBody + i) + " was erased, but blocks cannot leave their model");
+		if (assembly.isRigid(i)) continue; // it was the body that moved
+		const blocks::Vec2 centroid = assembly.centroid(i);
+		body->state->pos            = Vector3r(centroid.x(), centroid.y(), 0);
+	}
+}
+
+void BlockModel::insert(bool interactions)
+{
+	requireOpen("BlockModel.insert");
+	if (assembly.blockCount() == 0) throw std::runtime_error("BlockModel.insert: the model has no blocks");
+	Scene* scene = Omega::instance().getScene().get();
+	for (const auto& body : *scene->bodies)
+		if (body && body->shape && dynamic_cast<const Block*>(body->shape.get()))
+			throw std::runtime_error("BlockModel.insert: the scene has blocks of another model already; one model holds all blocks of a scene");
+
+	size_t     rigid = 0;
+	const auto self  = YADE_PTR_CAST<BlockModel>(shared_from_this());
+	for (int i = 0; i < assembly.blockCount(); ++i) {
+		auto       shape    = shared_ptr<Block>(new Block);
+		auto       body     = shared_ptr<Body>(new Body);
+		const auto centroid = assembly.centroid(i);
+		shape->model        = self;
+		shape->index        = i;
+		body->shape         = shape;
+		const string& label = materialLabels[assembly.mesh.blockMaterial[i]];
+		for (const auto& material : scene->materials)
+			if (material->label == label) body->material = material;
+		body->state->pos = body->state->refPos = Vector3r(centroid.x(), centroid.y(), 0);
+		if (rigid < assembly.state.rigid.size() && assembly.state.rigid[rigid].block == i) {
+			const blocks::RigidBlock& r = assembly.state.rigid[rigid++];
+			body->state->blockedDOFs    = State::DOF_Z | State::DOF_RX | State::DOF_RY;
+			body->state->mass           = r.inertia;
+			body->state->inertia        = Vector3r::Constant(r.rotaryInertia); // about z; the others only because YADE divides by them
+		} else {
+			body->state->blockedDOFs = State::DOF_ALL; // the grid points move, not the body
+			for (int n = assembly.mesh.firstNode[i]; n < assembly.mesh.firstNode[i + 1]; ++n)
+				body->state->mass += assembly.mesh.mass[n];
+		}
+		const int id = scene->bodies->insert(body);
+		if (i == 0) firstBody = id;
+		if (id != firstBody + i) throw std::runtime_error("BlockModel.insert: body ids are not consecutive; insert blocks before erasing bodies");
+	}
+	showsInteractions = interactions;
+	for (size_t pair = 0; interactions && pair < assembly.joints.pairs.size(); ++pair) {
+		const auto& block       = assembly.joints.pairs[pair].block;
+		auto        interaction = shared_ptr<Interaction>(new Interaction(firstBody + block[0], firstBody + block[1]));
+		auto        geom        = shared_ptr<BlockGeom>(new BlockGeom);
+		geom->model             = self;
+		geom->pair              = int(pair);
+		interaction->geom       = geom; // O.save forgets interactions that have neither geom nor phys
+		if (assembly.joints.kind[assembly.joints.pairs[pair].first] > 0) {
+			auto phys         = shared_ptr<JointPhys>(new JointPhys);
+			phys->model       = self;
+			phys->pair        = int(pair);
+			phys->fromBond    = true;
+			interaction->phys = phys;
+		}
+		scene->interactions->insert(interaction);
+	}
+	stiffnessChanged();
+}
+
+blocks::MotionGroup& BlockModel::group(const std::string& name)
+{
+	string known;
+	for (blocks::MotionGroup& g : assembly.state.groups) {
+		if (g.name == name) return g;
+		known += (known.empty() ? "" : ", ") + g.name;
+	}
+	throw std::invalid_argument("no motion group \"" + name + "\"; there are: " + known);
+}
+
+int BlockModel::bodyOf(int block) const
+{
+	if (firstBody < 0) throw std::runtime_error("BlockModel.bodyOf: blocks have no bodies before BlockModel.insert()");
+	blocks::require(block >= 0 && block < assembly.blockCount(), "BlockModel.bodyOf needs the index of a block", block);
+	return firstBody + block;
+}
+
+YADE_PLUGIN((BlockModel));
+
+} // namespace yade
