@@ -90,7 +90,6 @@ void BlockIntegrator::step(BlockModel& model)
 		scene->energy->set(booked.damping, "blockDamping", dampingId);
 		scene->energy->set(-blocks::groupWork(a) - blocks::rigidWork(a) - loadWork, "blockWork", workId);
 	}
-	model.writeCentroids(scene);
 }
 
 void BlockIntegrator::watchStability(BlockModel& model)
@@ -98,7 +97,10 @@ void BlockIntegrator::watchStability(BlockModel& model)
 	const long step    = scene->iter;
 	const auto verdict = watch.look(model.assembly, step, scene->time, scene->dt);
 	if (!verdict.warning.empty()) LOG_WARN("step " << step << ": " << verdict.warning);
-	if (verdict.stable) return;
+	if (verdict.stable) {
+		model.writeCentroids(scene);
+		return;
+	}
 
 	string     message = "unstable at step " + std::to_string(step) + ", block " + std::to_string(verdict.block) + ": " + verdict.reason;
 	const long good    = watch.restore(model.assembly);

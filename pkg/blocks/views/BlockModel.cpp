@@ -4,6 +4,7 @@
 #include <blocks/kernel/model/ContactDetection.hpp>
 #include <blocks/kernel/step/TimeStep.hpp>
 #include <blocks/views/BlockModel.hpp>
+#include <blocks/views/BlockState.hpp>
 #include <blocks/views/JointPhys.hpp>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
@@ -259,8 +260,15 @@ void BlockModel::insert(bool interactions)
 		const string& label = materialLabels[assembly.mesh.blockMaterial[i]];
 		for (const auto& material : scene->materials)
 			if (material->label == label) body->material = material;
+		const bool isRigid = rigid < assembly.state.rigid.size() && assembly.state.rigid[rigid].block == i;
+		if (!isRigid) {
+			auto state   = shared_ptr<BlockState>(new BlockState);
+			state->model = self;
+			state->index = i;
+			body->state  = state;
+		}
 		body->state->pos = body->state->refPos = Vector3r(centroid.x(), centroid.y(), 0);
-		if (rigid < assembly.state.rigid.size() && assembly.state.rigid[rigid].block == i) {
+		if (isRigid) {
 			const blocks::RigidBlock& r = assembly.state.rigid[rigid++];
 			body->state->blockedDOFs    = State::DOF_Z | State::DOF_RX | State::DOF_RY;
 			body->state->mass           = r.inertia;

@@ -62,7 +62,7 @@ public:
 	/// Refuses joints without properties.
 	void requireProperties();
 
-	/// Centroids of deformable blocks -> state.pos of their bodies.
+	/// Centroids of deformable blocks -> state.pos of their bodies, for engines of YADE that look there; Python asks BlockState.
 	void writeCentroids(Scene*);
 
 	/// One Body per block and one Interaction per pair, into the present scene.
