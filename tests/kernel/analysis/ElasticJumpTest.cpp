@@ -116,9 +116,9 @@ TEST(ElasticJump, IsWhereSlowLoadingArrives)
 	const Real        dt   = 1e-3 * jump.time;
 	scaleInertia(walked, nodalStiffness(walked), dt, 0.7);
 	Damping damping;
-	damping.alpha             = 0.5;
+	damping.alpha                   = 0.5;
 	walked.state.groups[1].rampTime = walked.state.groups[2].rampTime = jump.time / 4;
-	Real time                                             = 0;
+	Real time                                                         = 0;
 	for (; walked.state.groups[1].travelled < 1e-3 * jump.time; time += dt) {
 		computeForces(walked);
 		integrate(walked, damping, dt, time);
@@ -173,7 +173,7 @@ TEST(ElasticJump, RefusesWhatIsNotLinear)
 	refuses(wall(joint, 0, 0, 1e5), "driven by a velocity");
 	refuses(wall(brittle(0.6e6, 1e3, 0), 1e-3, 0, 1e6), "dead loads alone break");
 	refuses(wall(elasticJoint(2e12, 1e12), 0, 1e-3, 0), "answer is not linear"); // strength 1e30: strains without bound
-	BlockAssembly broken          = wall(joint, 1e-3, 0, 1e5);
+	BlockAssembly broken   = wall(joint, 1e-3, 0, 1e5);
 	broken.state.status[3] = Joint::brokenInShear;
 	refuses(broken, "not bonded");
 	BlockAssembly bare = wall(joint, 1e-3, 0, 1e5);

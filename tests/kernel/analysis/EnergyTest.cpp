@@ -160,12 +160,12 @@ TEST(Energy, FractureAndFrictionOfOneJoint)
 	// dragged. Fracture sets free what was stored and taken in within the step of breaking; friction is limit x slip.
 	JointParams joint = elasticJoint(100e9, 40e9);
 	joint.tension = 1e6, joint.tanPhiResidual = 0.5;
-	BlockAssembly   a = column(2, 0.8, 0.5, 1, 1, { 20e9, 0, 2000 }, joint, 2); // 1.6 m2
-	const Accounts& d = a.state.accounts;
-	auto moveTo = [&](Real un, Real us) {
-		for (int n = a.mesh.firstNode[1]; n < a.nodeCount(); ++n)
-			a.state.displacement[n] = Vec2(-us, un); // n = (0,1), t = (-1,0)
-		blocks::computeForces(a, Brittle {}, 0, true);
+	BlockAssembly   a      = column(2, 0.8, 0.5, 1, 1, { 20e9, 0, 2000 }, joint, 2); // 1.6 m2
+	const Accounts& d      = a.state.accounts;
+	auto            moveTo = [&](Real un, Real us) {
+                for (int n = a.mesh.firstNode[1]; n < a.nodeCount(); ++n)
+                        a.state.displacement[n] = Vec2(-us, un); // n = (0,1), t = (-1,0)
+                blocks::computeForces(a, Brittle {}, 0, true);
 	};
 	moveTo(0.9e-5, 0);                // elastic: work = stored
 	EXPECT_NEAR(d.friction, 0, 1e-9); // energies of 6 J, strokes of 1e-5 known to 2e-10
@@ -313,7 +313,7 @@ TEST(StabilityWatch, NamesTheBlockThatIsNotANumber)
 	EXPECT_EQ(watch.restore(a), -1); // nothing to put back yet
 	EXPECT_TRUE(watch.look(a, 0, 0, 0.005).stable);
 	a.state.velocity[a.mesh.firstNode[1] + 2].x() = std::nan("");
-	const auto verdict                 = watch.look(a, 20, 0.1, 0.005);
+	const auto verdict                            = watch.look(a, 20, 0.1, 0.005);
 	EXPECT_FALSE(verdict.stable);
 	EXPECT_EQ(verdict.block, 1);
 	EXPECT_EQ(watch.restore(a), 0);

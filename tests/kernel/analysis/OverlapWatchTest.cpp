@@ -54,10 +54,13 @@ TEST(OverlapWatch, ComparesJointsWithTheLowerZone)
 	EXPECT_NEAR(watch.joint.height, 0.08, 100 * eps);
 	EXPECT_NEAR(watch.joint.share(), 0.15, 1000 * eps);
 	EXPECT_NEAR(watch.mean, 0.15, 1000 * eps); // of what is closed
-	BlockAssembly b     = a;
+	BlockAssembly b    = a;
 	b.state.opening[0] = b.state.opening[1] = -0.004;
 	watch.look(b);
-	EXPECT_NEAR(watch.mean, (0.15 * b.joints.segments[1].area + 0.05 * b.joints.segments[0].area) / (b.joints.segments[0].area + b.joints.segments[1].area), 1000 * eps);
+	EXPECT_NEAR(
+		watch.mean,
+		(0.15 * b.joints.segments[1].area + 0.05 * b.joints.segments[0].area) / (b.joints.segments[0].area + b.joints.segments[1].area),
+		1000 * eps);
 	watch.look(a);
 	EXPECT_EQ(&watch.thickest(), &watch.joint);
 
@@ -72,7 +75,7 @@ TEST(OverlapWatch, EveryJointHasZonesBehind)
 	                         column(2, 0.4, 0.004, 2, 1, stone(), elasticJoint(1, 1)),
 	                         twoBlocks(elasticJoint(1, 1)) })
 		for (size_t i = 0; i < a.state.status.size(); ++i) {
-			BlockAssembly b     = a;
+			BlockAssembly b    = a;
 			b.state.opening[i] = -1;
 			OverlapWatch watch;
 			watch.look(b);

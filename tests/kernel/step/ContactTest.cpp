@@ -258,11 +258,11 @@ TEST(ContactKinematics, ForcesAreTheGradientOfTheSprings)
 	const Real d = 1e-6;
 	for (int n = 0; n < a.nodeCount(); ++n)
 		for (int axis : { 0, 1 }) {
-			const Real at                = a.state.displacement[n][axis];
+			const Real at                 = a.state.displacement[n][axis];
 			a.state.displacement[n][axis] = at + d;
-			const Real ahead    = springEnergy(a);
+			const Real ahead              = springEnergy(a);
 			a.state.displacement[n][axis] = at - d;
-			const Real behind   = springEnergy(a);
+			const Real behind             = springEnergy(a);
 			a.state.displacement[n][axis] = at;
 			EXPECT_NEAR(f[n][axis], -(ahead - behind) / (2 * d), 1.3e-8) << "node " << n << " axis " << axis;
 		}

@@ -60,7 +60,7 @@ struct Simulation {
 	Damping        damping;
 	StepWork       work;
 	int            threads = 1;
-	long           step = 0;
+	long           step    = 0;
 
 	Simulation(BlockAssembly& assembly, const JointParams& p, Real safety = 0.3, Real alpha = -1)
 		: a(assembly)
@@ -416,7 +416,7 @@ TEST(FreeContacts, DilatedJointsAreReleasedWithoutAJump)
 	move(0.4e-6 * normal), computeAllForces(a, joint, 0, 1);
 	EXPECT_EQ(contactEnergy(a), 0);
 	// without a limit slip it dilates for a quarter of its length, 0.85 m
-	joint.dilationLimitSlip  = std::numeric_limits<Real>::max();
+	joint.dilationLimitSlip = std::numeric_limits<Real>::max();
 	for (Real slip : { 0.21, 0.22 }) {
 		BlockAssembly b = twoBlocks(joint);
 		computeAllForces(b, joint, 0);
@@ -482,7 +482,7 @@ TEST(FreeContacts, RaisedEdgesHaveThePotentialsForces)
 			EXPECT_NEAR(normal[n][axis], (energy(less) - energy(more)) / (2 * h), 1e-6 * scale) << n;
 		}
 
-	BlockAssembly rough                        = a;
+	BlockAssembly rough                          = a;
 	rough.state.contacts[0].joint.tanPhiResidual = 1e9;
 	for (Vec2& v : rough.state.velocity)
 		v = Vec2(shift(random), shift(random));
@@ -901,7 +901,7 @@ TEST(FreeContacts, DryStackRests)
 
 namespace {
 
-/// Blocks that fall into a trough, in the order of `order`; the indices of blocks do not change, only the order of requests.
+/// Blocks that fall into a trough.
 BlockAssembly heap(int count)
 {
 	std::mt19937  random(9);
@@ -947,8 +947,8 @@ TEST(FreeContacts, SameBitsWhateverThreadsAndOrder)
 		if (s.step % 7 == 0) shuffled.contacts.mayGo = 0;
 		if (s.step % 100 == 0) shuffled.contacts.started = false; // everything is looked for
 	});
-	EXPECT_GT(shuffled.contacts.looks, one.contacts.looks + 100);
-	EXPECT_LT(one.contacts.looks, 300);
+	EXPECT_GE(shuffled.contacts.looks, 1000 / 7);
+	EXPECT_LT(one.contacts.looks, 100);
 	expectSameBits(one, shuffled);
 }
 
@@ -1081,7 +1081,8 @@ Stress stress(int count, int steps, unsigned seed)
 		addFan(a, second);
 		Simulation run(a, frictional(1e6, 5e5, (pose % 3) * 15 * degree), 0.5);
 		for (int b : { 0, 1 })
-			if (a.mesh.firstZone[b] < a.mesh.firstZone[b + 1]) setVelocity(a, b, 0.5 * Vec2(u(random), u(random)) + (b ? -0.3 : 0.3) * apart, u(random));
+			if (a.mesh.firstZone[b] < a.mesh.firstZone[b + 1])
+				setVelocity(a, b, 0.5 * Vec2(u(random), u(random)) + (b ? -0.3 : 0.3) * apart, u(random));
 		Real start = 0, most = 0, imbalance = 0;
 		bool touched = false;
 		run.steps(steps, [&](Real energy) {
@@ -1183,8 +1184,8 @@ TEST(FreeContacts, StiffnessIsBounded)
                                 v.setZero();
                         b.state.displacement[dof / 2][dof % 2] += by;
                         b.state.velocity[dof / 2][dof % 2] = by;
-                        JointParams rough            = joint;
-                        rough.tanPhiResidual         = 1e3;
+                        JointParams rough                  = joint;
+                        rough.tanPhiResidual               = 1e3;
                         for (int c : b.contacts.order)
                                 b.state.contacts[c].joint = rough;
                         advanceContacts(b, 1);
@@ -1229,7 +1230,7 @@ TEST(FreeContacts, NonConvexBlocksInterlock)
 	BlockAssembly a = scene();
 	addRigid(a, { { 0, 0 }, { 3, 0 }, { 3, 1 }, { 2, 1 }, { 2, 0.4 }, { 1.5, 0.4 }, { 1, 0.4 }, { 1, 1 }, { 0, 1 } });
 	addRigid(a, box(1, 0.4, 1, 1));
-	a.contacts.wanted = true;
+	wantContacts(a, frictional(1e6, 1e6, 0));
 	prepareContacts(a);
 	const Real sharp[] = { 1, 1, 1, 1, 0, 0, 0, 1, 1 }; // right angles are, inward corners and points of straight edges are not
 	for (int n = 0; n < 9; ++n)

@@ -39,7 +39,7 @@ Real velocityAfter(Damping damping, Real f, Real v, Real m, Real dt, Real viscos
 	std::fill(a.state.inertia.begin(), a.state.inertia.end(), 0);
 	a.state.inertia[0] = m;
 	a.addGroup(driven("y", { 1 }, 0));
-	a.forces.nodal[0].x()    = f;
+	a.forces.nodal[0].x()   = f;
 	a.state.velocity[0].x() = v;
 	a.state.viscosity       = viscosity;
 	*work                   = integrate(a, damping, dt, 0, true);
@@ -68,7 +68,7 @@ TEST(CentralDifference, FollowsItsOwnExactSolution)
 		Real* const           u     = a.state.displacement.data()->data();
 		const Eigen::VectorXd phi   = m.shape.col(mode) * (0.01 / m.shape.col(mode).cwiseAbs().maxCoeff());
 		for (int i = 0; i < 6; ++i) {
-			u[i] = phi[i];
+			u[i]                           = phi[i];
 			a.state.velocity[i / 2][i % 2] = phi[i] * (1 - std::cos(theta)) / dt; // (x_0 - x_-1)/dt
 		}
 		Damping none = damped(Damping::Kind::none);
@@ -96,8 +96,8 @@ TEST(CentralDifference, SecondOrderInTime)
 		a.state.displacement[2].y() += amplitude;
 		// velocity at -dt/2 of the true solution, by Taylor's series to dt^4 (an error of 1e-5 of the amplitude's phase at most)
 		a.state.velocity[2].y() = amplitude * m.omega[0] * std::sin(m.omega[0] * dt / 2);
-		Damping   none    = damped(Damping::Kind::none);
-		const int steps   = 20 * stepsPerRadian;
+		Damping   none          = damped(Damping::Kind::none);
+		const int steps         = 20 * stepsPerRadian;
 		for (int n = 0; n < steps; ++n) {
 			computeForces(a);
 			integrate(a, none, dt, n * dt);
@@ -362,9 +362,9 @@ TEST(MotionGroup, PlatenMovesAsOneUnderItsForce)
 	// Two of three nodes joined in y, unequal in mass: acceleration = (sum of forces + applied) / sum of masses. The ramp counts at
 	// the time of the forces.
 	BlockAssembly a = triangle();
-	a.state.inertia       = { 2, 3, 5 };
+	a.state.inertia = { 2, 3, 5 };
 	const int g     = a.addGroup(pushed("platen", { 5, 1 }, 40, 4));
-	a.forces.nodal         = { { 1, -7 }, { 2, 6 }, { 3, 9 } };
+	a.forces.nodal  = { { 1, -7 }, { 2, 6 }, { 3, 9 } };
 	Damping none    = damped(Damping::Kind::none);
 	integrate(a, none, 0.1, 2, true); // ramp(2) = 1/2
 	EXPECT_NEAR(a.state.groups[g].velocity, (-7 + 9 + 20) / 7. * 0.1, 8 * eps);
@@ -376,14 +376,14 @@ TEST(MotionGroup, PlatenMovesAsOneUnderItsForce)
 	EXPECT_EQ(a.state.groups[g].force, 20);
 
 	// with damping: the group as a whole is what moves
-	Damping local = damped(Damping::Kind::local, 0.3);
-	a.forces.nodal       = { { 1, -7 }, { 2, 6 }, { 3, 9 } };
-	Real before   = a.state.groups[g].velocity;
+	Damping local  = damped(Damping::Kind::local, 0.3);
+	a.forces.nodal = { { 1, -7 }, { 2, 6 }, { 3, 9 } };
+	Real before    = a.state.groups[g].velocity;
 	integrate(a, local, 0.1, 4);
 	EXPECT_NEAR(a.state.groups[g].velocity, before + 0.7 * (2 + 40) / 7. * 0.1, 16 * eps);
-	Damping viscous = damped(Damping::Kind::adaptive);
+	Damping viscous   = damped(Damping::Kind::adaptive);
 	a.state.viscosity = 4;
-	before          = a.state.groups[g].velocity;
+	before            = a.state.groups[g].velocity;
 	integrate(a, viscous, 0.1, 4);
 	EXPECT_NEAR(a.state.groups[g].velocity, (0.8 * before + 42 / 7. * 0.1) / 1.2, 16 * eps);
 }
@@ -392,9 +392,9 @@ TEST(MotionGroup, ForceOnADrivenGroup)
 {
 	// What a driven group puts on the blocks: sum m a - sum F. From 0 to -0.5 m/s in one step of 0.1 s.
 	BlockAssembly a = triangle();
-	a.state.inertia       = { 2, 3, 5 };
+	a.state.inertia = { 2, 3, 5 };
 	const int g     = a.addGroup(driven("g", { 1, 5 }, -0.5));
-	a.forces.nodal         = { { 1, -7 }, { 2, 6 }, { 3, 10 } };
+	a.forces.nodal  = { { 1, -7 }, { 2, 6 }, { 3, 10 } };
 	Damping none    = damped(Damping::Kind::none);
 	integrate(a, none, 0.1, 0);
 	EXPECT_NEAR(a.state.groups[g].force, -0.5 / 0.1 * 7 - 3, 40 * 4 * eps);

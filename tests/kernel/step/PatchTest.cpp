@@ -26,8 +26,8 @@ void addTractions(BlockAssembly& a, const Matrix& P)
 void setStiffnesses(BlockAssembly& a, const std::vector<Vec2>& seeds, Real kappaN, Real kappaS)
 {
 	for (size_t pair = 0; pair < a.joints.pairs.size(); ++pair) {
-		const auto& b  = a.joints.pairs[pair].block;
-		const Real  d  = (seeds[b[1]] - seeds[b[0]]).norm();
+		const auto& b = a.joints.pairs[pair].block;
+		const Real  d = (seeds[b[1]] - seeds[b[0]]).norm();
 		a.setJoints(a.joints.pairs[pair].first, a.joints.pairs[pair].last, elasticJoint(kappaN / d, kappaS / d));
 	}
 }
@@ -99,7 +99,7 @@ TEST(Patch, DynamicRelaxationFindsIt)
 		EXPECT_NEAR(t.sxy, s.sxy, s.sxx * 1e-6) << "zone " << z;
 	}
 	for (size_t i = 0; i < a.state.status.size(); ++i) { // Joints' stresses are the components of P n0 in the present frame; n0, the normal
-		const Vec2 d = seeds[a.joints.segments[i / 2].block[1]] - seeds[a.joints.segments[i / 2].block[0]], n0 = d.normalized(); // at the start
+		const Vec2       d = seeds[a.joints.segments[i / 2].block[1]] - seeds[a.joints.segments[i / 2].block[0]], n0 = d.normalized(); // at the start
 		const JointFrame frame = frameOf(a, int(i / 2));
 		const Vec2       n(frame.nx, frame.ny), t(-n.y(), n.x());
 		EXPECT_NEAR(a.state.sigma[i], n.dot(P * n0), s.sxx * 1e-6);
@@ -260,13 +260,13 @@ TEST(BlockAssembly, AllForcesAreTheGradientOfTheStoredEnergy)
 		const Real              d = 1e-6;
 		for (int n = 0; n < a.nodeCount(); ++n)
 			for (int axis : { 0, 1 }) {
-				const Real at                = a.state.displacement[n][axis];
+				const Real at                 = a.state.displacement[n][axis];
 				a.state.displacement[n][axis] = at + d;
 				computeForces(a);
-				const Real ahead    = specimens::storedEnergy(a);
+				const Real ahead              = specimens::storedEnergy(a);
 				a.state.displacement[n][axis] = at - d;
 				computeForces(a);
-				const Real behind   = specimens::storedEnergy(a);
+				const Real behind             = specimens::storedEnergy(a);
 				a.state.displacement[n][axis] = at;
 				EXPECT_NEAR(f[n][axis], -(ahead - behind) / (2 * d), 1e-8) << "node " << n << " axis " << axis;
 			}
@@ -360,9 +360,10 @@ TEST(BlockAssembly, RebuiltFromWhatMustBeKept)
 		a.state.displacement[n] = 1e-5 * Vec2(std::sin(7 * x.y()), x.x() * x.y());
 	}
 	computeForces(a);
-	BlockAssembly b = a;
+	BlockAssembly b     = a;
 	b.mesh.zoneGradient = {}, b.mesh.zoneVolume.clear(), b.mesh.isFan.clear(), b.supports.mobility.clear(), b.forces = {};
-	b.joints.node.clear(), b.joints.columns = {}, b.joints.effective.clear(), b.joints.kindOfBatch.clear(), b.joints.sides.clear(), b.joints.firstSide.clear();
+	b.joints.node.clear(), b.joints.columns = {}, b.joints.effective.clear(), b.joints.kindOfBatch.clear(), b.joints.sides.clear(),
+			       b.joints.firstSide.clear();
 	b.rebuild();
 	EXPECT_TRUE(b.supports.mobility == a.supports.mobility);
 	EXPECT_EQ(b.joints.sides, a.joints.sides);

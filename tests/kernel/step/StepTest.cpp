@@ -67,8 +67,8 @@ void advanceOneByOne(BlockAssembly& a)
 		const Segment& g = a.joints.segments[i];
 		const auto&    X = a.mesh.reference;
 		const auto&    u = s.displacement;
-		const Vec2     e1 = X[g.node[1]] - X[g.node[0]] + (u[g.node[1]] - u[g.node[0]]), e2 = X[g.node[3]] - X[g.node[2]] + (u[g.node[3]] - u[g.node[2]]);
-		const Vec2     d = X[g.node[2]] - X[g.node[0]] + (u[g.node[2]] - u[g.node[0]]);
+		const Vec2 e1 = X[g.node[1]] - X[g.node[0]] + (u[g.node[1]] - u[g.node[0]]), e2 = X[g.node[3]] - X[g.node[2]] + (u[g.node[3]] - u[g.node[2]]);
+		const Vec2 d          = X[g.node[2]] - X[g.node[0]] + (u[g.node[2]] - u[g.node[0]]);
 		const JointFrame f    = jointFrame(e1.x(), e1.y(), e2.x(), e2.y());
 		const Real       area = s.released[i] ? 0 : g.area;
 		Vec2             on[4];
@@ -113,7 +113,7 @@ void expectSameJoints(const BlockAssembly& a, const BlockAssembly& b)
 const std::vector<Mixture> mixtures {
 	{ "all intact, one kind", 1e-6, 1, 0, 0, 0 },
 	{ "all intact, several kinds", 1e-6, 3, 0, 0, 0 },
-	{ "some break, one kind", 4e-5, 1, 0, 0, 0 },
+	{ "some break, one kind", 8e-5, 1, 0, 0, 0 },
 	{ "some break, several kinds", 8e-5, 3, 0, 0, 0 },
 	{ "few broken", 1e-6, 3, 0.02, 0, 0 },
 	{ "half broken, unbonded", 1e-4, 3, 0.5, 0, 0 },
@@ -193,7 +193,8 @@ TEST(JointsInBatches, DissipationIsWorkLessWhatIsStored)
 			const Real         area = a.joints.segments[p / 2].area;
 			const Real         work = (before.sigma[p] + after.sigma[p]) / 2 * (after.opening[p] - before.opening[p])
 				+ (before.tau[p] + after.tau[p]) / 2 * (after.slip[p] - before.slip[p]);
-			const Real held = blocks::storedEnergy(j, before.sigma[p], before.tau[p]), holds = blocks::storedEnergy(j, after.sigma[p], after.tau[p]);
+			const Real held  = blocks::storedEnergy(j, before.sigma[p], before.tau[p]),
+				   holds = blocks::storedEnergy(j, after.sigma[p], after.tau[p]);
 			(before.status[p] == after.status[p] ? friction : fracture) += area * (work + held - holds);
 			turnover += area * (std::abs(work) + held + holds);
 		}
@@ -409,15 +410,23 @@ TEST(ContactInTime, NoSpeedAndNoOffsetMakesItLate)
 				auto square = [&](Vec2 centre, Real side, Real turn) {
 					Ring ring;
 					for (int i = 0; i < 4; ++i)
-						ring.push_back(centre + side / std::sqrt(2) * Vec2(std::cos(turn + (i + 0.5) * M_PI / 2), std::sin(turn + (i + 0.5) * M_PI / 2)));
+						ring.push_back(
+							centre
+							+ side / std::sqrt(2)
+								* Vec2(std::cos(turn + (i + 0.5) * M_PI / 2), std::sin(turn + (i + 0.5) * M_PI / 2)));
 					std::vector<int> outline { 0, 1, 2, 3 };
 					a.addBlock(ring, { outline }, {}, 0);
 				};
 				square({ 0, 0 }, 1, 0);
-				const Real step = share * size, turn = pose % 4 == 0 ? 0 : pose % 4 == 1 ? M_PI / 4 : 2 * M_PI * u(random), spin = pose % 8 == 7 ? 0.3 * share : 0;
-				const Real gap = (0.001 + 0.3 * u(random)) * size + (pose % 5 == 0 ? 20 * step : 0), aside = 0.9 * (u(random) - 0.5) * (1 + size);
+				const Real step  = share * size,
+					   turn  = pose % 4 == 0 ? 0
+					 : pose % 4 == 1         ? M_PI / 4
+								 : 2 * M_PI * u(random),
+					   spin  = pose % 8 == 7 ? 0.3 * share : 0;
+				const Real gap   = (0.001 + 0.3 * u(random)) * size + (pose % 5 == 0 ? 20 * step : 0),
+					   aside = 0.9 * (u(random) - 0.5) * (1 + size);
 				square({ -0.5 - size * std::sqrt(0.5) - gap, aside }, size, turn);
-				const Vec2 v = step * Vec2(std::cos(0.3 * (pose % 3 - 1)), std::sin(0.3 * (pose % 3 - 1)));
+				const Vec2 v         = step * Vec2(std::cos(0.3 * (pose % 3 - 1)), std::sin(0.3 * (pose % 3 - 1)));
 				a.contacts.wanted    = true;
 				a.joints.ofMaterials = { 1 };
 				a.joints.kinds.push_back(elasticJoint(1e6, 5e5));

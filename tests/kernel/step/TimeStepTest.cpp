@@ -13,7 +13,7 @@ struct Specimen {
 /// Meshes of every kind, joints of k = ratio x E/size.
 std::vector<Specimen> meshes(Real ratio)
 {
-	const JointParams joint = elasticJoint(ratio * 20e9 / 0.2, 0.4 * ratio * 20e9 / 0.2);
+	const JointParams     joint = elasticJoint(ratio * 20e9 / 0.2, 0.4 * ratio * 20e9 / 0.2);
 	std::vector<Specimen> list;
 	list.push_back({ "voronoi", voronoi(1, 0.6, 4, 2, stone(), joint, 0.5) });
 	list.push_back({ "column", column(3, 0.5, 0.2, 2, 1, stone(), joint) });
@@ -158,7 +158,7 @@ TEST(TimeStep, LocalDampingLowersTheLimit)
 			const Real    dt = part * limit / std::sqrt(1 + alpha);
 			b.state.displacement[2].y() += 1e-6;
 			b.state.velocity[2].y() = 2e-6 / dt;
-			Real most         = 0;
+			Real most               = 0;
 			for (int i = 0; i < 120; ++i) {
 				computeForces(b);
 				integrate(b, local, dt, i * dt);
