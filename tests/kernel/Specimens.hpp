@@ -3,10 +3,10 @@
 #include <blocks/kernel/analysis/Energy.hpp>
 #include <blocks/kernel/geometry/Tessellation.hpp>
 #include <blocks/kernel/model/ContactDetection.hpp>
-#include <blocks/kernel/step/CentralDifference.hpp>
-#include <blocks/kernel/step/ContactKinematics.hpp>
-#include <blocks/kernel/step/NodalForces.hpp>
+#include <blocks/kernel/step/Loads.hpp>
+#include <blocks/kernel/step/Step.hpp>
 #include <blocks/kernel/step/TimeStep.hpp>
+#include <blocks/kernel/step/ZoneForces.hpp>
 
 #include <Eigen/Dense>
 #include <functional>
@@ -84,7 +84,7 @@ inline int addGrid(BlockAssembly& a, Vec2 corner, Real width, Real height, int n
 inline void bondAll(BlockAssembly& a, const JointParams& joint)
 {
 	a.bond(detectSegments(a));
-	a.joints.ofPair.assign(a.joints.pairs.size(), joint);
+	a.setJoints(joint);
 }
 
 /// Two quadrilaterals of unequal size and mesh that share the skew edge (1, 0)-(1.3, 0.8); their zones are lopsided.
@@ -152,15 +152,8 @@ voronoi(Real w, Real h, int nx, int ny, const Material& m, const JointParams& jo
 	return a;
 }
 
-/// Kinematics, law, joint forces, gathering: everything between positions and forces.
-inline void computeForces(BlockAssembly& a, int threads = 1)
-{
-	updateKinematics(a, 0, int(a.joints.segments.size()));
-	for (int pair = 0; pair < int(a.joints.pairs.size()); ++pair)
-		advanceJoints(a, pair, advance);
-	computeJointForces(a, threads);
-	gatherForces(a, threads);
-}
+/// Everything between positions and forces.
+inline void computeForces(BlockAssembly& a, int threads = 1) { blocks::computeForces(a, Brittle {}, 0, false, threads); }
 
 inline Real storedEnergy(const BlockAssembly& a) { return zoneEnergy(a) + jointEnergy(a); }
 
@@ -201,7 +194,7 @@ inline Eigen::MatrixXd stiffnessMatrix(BlockAssembly a, Real d)
 {
 	const int       n = 2 * a.nodeCount();
 	Eigen::MatrixXd k(n, n);
-	Real* const     x = a.position.data()->data();
+	Real* const     x = a.state.displacement.data()->data();
 	const auto      f = Eigen::Map<Eigen::VectorXd>(a.forces.nodal.data()->data(), n);
 	for (int j = 0; j < n; ++j) {
 		const Real at = x[j];
@@ -265,24 +258,14 @@ inline void solveStatics(BlockAssembly& a, Real d, bool holdThree, int iteration
 			f[i] = a.forces.nodal[free[i] / 2][free[i] % 2];
 		const Eigen::VectorXd u = solver.solve(f);
 		for (int i = 0; i < n; ++i)
-			a.position(free[i] / 2)[free[i] % 2] += u[i];
+			a.state.displacement[free[i] / 2][free[i] % 2] += u[i];
 	}
 }
 
 /// Stress of a zone in its own axes.
 inline ZoneStress stressOfZone(const BlockAssembly& a, int zone)
 {
-	int block = 0;
-	while (a.mesh.firstZone[block + 1] <= zone)
-		++block;
-	const Material& m    = a.materials[a.mesh.blockMaterial[block]];
-	const auto&     node = a.mesh.zoneNodes[zone];
-	const Vec2      p = a.position(node[1]) - a.position(node[0]), q = a.position(node[2]) - a.position(node[0]);
-	const auto&     g = a.zoneGradient[zone];
-	return zoneStress(
-		planeModuli(m.young, m.poisson, a.plane),
-		a.strain == Strain::large ? zoneStrain<Strain::large>(g, p.x(), p.y(), q.x(), q.y())
-					  : zoneStrain<Strain::small>(g, p.x(), p.y(), q.x(), q.y()));
+	return zoneStress(moduliOf(a, a.blockOfNode(a.mesh.zoneNodes[zone][0])), strainOf(a, zone));
 }
 
 /// Boundary edges without a neighbour: on the outline of a w x h rectangle, with the outward normal.

@@ -15,7 +15,7 @@ Matrix rotation(Real angle) { return (Matrix() << std::cos(angle), -std::sin(ang
 
 template <Strain kind> ZoneStrain strainAt(const Vec2 (&x)[3])
 {
-	const Vec2 p = x[1] - x[0], q = x[2] - x[0];
+	const Vec2 p = x[1] - x[0] - (corner[1] - corner[0]), q = x[2] - x[0] - (corner[2] - corner[0]); // of displacements
 	return zoneStrain<kind>(zoneGradients(corner[0], corner[1], corner[2]), p.x(), p.y(), q.x(), q.y());
 }
 

@@ -44,8 +44,8 @@ void toCentre(BlockAssembly& a)
 	Real mass = 0;
 	for (int n = 0; n < a.nodeCount(); ++n)
 		moment += a.mesh.mass[n] * a.position(n), mass += a.mesh.mass[n];
-	for (Vec2& x : a.position)
-		x -= moment / mass;
+	for (Vec2& u : a.state.displacement)
+		u -= moment / mass;
 	std::fill(a.state.velocity.begin(), a.state.velocity.end(), Vec2::Zero());
 }
 

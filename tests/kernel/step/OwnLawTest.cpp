@@ -2,8 +2,7 @@
 #include <Specimens.hpp>
 
 /// How to write a joint law of one's own: a function of the joint's parameters, its state, opening and slip. Nothing else is needed:
-/// blocks::advanceJoints(assembly, pair, law) calls it at every contact point of a pair. In a YADE plugin the body of Law2's go()
-/// is that one line (see Law2_BlockGeom_JointPhys_MohrCoulomb in pkg/blocks/JointPhys.cpp).
+/// blocks::computeForces(assembly, law, dt) calls it at every contact point of every joint.
 
 using namespace specimens;
 
@@ -47,11 +46,7 @@ void lift(BlockAssembly& a, Real opening)
 {
 	for (int n = a.mesh.firstNode[1]; n < a.mesh.firstNode[2]; ++n)
 		a.place(n, a.mesh.reference[n] + Vec2(0, opening));
-	updateKinematics(a, 0, int(a.joints.segments.size()));
-	for (int pair = 0; pair < int(a.joints.pairs.size()); ++pair)
-		advanceJoints(a, pair, LinearSoftening { w });
-	computeJointForces(a);
-	gatherForces(a);
+	blocks::computeForces(a, LinearSoftening { w }, 0);
 }
 
 /// The joint's pull on the lower block [N].
@@ -91,8 +86,8 @@ TEST(OwnLaw, LinearSofteningOfTwoRigidlyMovedBlocks)
 	}
 	// the fracture energy is the area below: f w / 2; the trapezoidal rule is exact on straight lines whose ends are steps (e and w are)
 	EXPECT_NEAR(work, area * strength * w / 2, steps * tolerance * w);
-	for (const ContactPoint& p : a.points)
-		EXPECT_EQ(p.joint.status, Joint::brokenInTension);
+	for (Joint status : a.state.status)
+		EXPECT_EQ(status, Joint::brokenInTension);
 }
 
 // The same law in the loop of a time step, with deformable blocks in a row with the joint: force F = sigma A everywhere, elongation
@@ -118,11 +113,7 @@ TEST(OwnLaw, SofteningBarOfDeformableBlocks)
 	damping.alpha = 0.5;
 	Real peak     = 0;
 	for (int i = 0; i < int(steps); ++i) {
-		updateKinematics(a, 0, int(a.joints.segments.size()));
-		for (int pair = 0; pair < int(a.joints.pairs.size()); ++pair)
-			advanceJoints(a, pair, LinearSoftening { w });
-		computeJointForces(a);
-		gatherForces(a);
+		blocks::computeForces(a, LinearSoftening { w }, dt);
 		integrate(a, damping, dt, i * dt);
 		const Real u = a.state.groups[1].travelled - a.state.groups[1].velocity * dt, force = a.state.groups[1].force; // both of this step's forces
 		peak              = std::max(peak, force);

@@ -112,6 +112,7 @@ int BlockAssembly::addBlock(
 	if (!supports.load.empty()) supports.load.resize(nodeCount(), Vec2::Zero());
 	forces.nodal.resize(nodeCount(), Vec2::Zero());
 
+	contacts.started = false; // nobody has looked at it yet
 	rebuildZones(blockCount() - 1);
 	joints.firstSide.push_back(int(joints.sides.size()));
 	return blockCount() - 1;
@@ -154,6 +155,7 @@ void BlockAssembly::bond(std::vector<Segment> found)
 		pairs.back().last = i + 1;
 	}
 	joints.kinds.assign(1, JointParams());
+	joints.ofMaterials.clear(); // its kinds are no more
 	joints.kind.assign(joints.count(), 0);
 	for (auto* column : { &state.opening, &state.slip, &state.sigma, &state.tau, &state.slipPlastic, &state.uplift })
 		column->assign(pointCount(), 0);
