@@ -84,7 +84,7 @@ def kick(model, amplitude, held=()):
 	shifts = np.random.default_rng(1).uniform(-amplitude, amplitude, model.position.shape)
 	for nodes in held:
 		shifts[nodes] = 0
-	model.position[:] += shifts
+	model.displacement[:] += shifts
 
 
 class Look:
@@ -269,11 +269,11 @@ def trueLimit(model):
 
 	The engines must not move anything. Some eigenvalue of M^-1 K is within |residual| of Rayleigh's quotient."""
 	free = np.ones_like(model.position)
-	mass, rest = model.mass[:, None], np.array(model.position)
-	small = 1e-7 * np.ptp(rest) # linear: frames turn by so little; against rounding 1e-9 of it
+	mass, rest = model.mass[:, None], np.array(model.displacement)
+	small = 1e-7 * np.ptp(model.reference) # linear: frames turn by so little; against rounding 1e-9 of it
 
 	def forces(shift):
-		model.position[:] = rest + shift
+		model.displacement[:] = rest + shift
 		O.step()
 		return np.array(model.force)
 
@@ -286,7 +286,7 @@ def trueLimit(model):
 		residual = math.sqrt((mass * (image - square * mode)**2).sum() / norm) / square
 		if residual < 1e-4: break
 		mode = image
-	model.position[:] = rest
+	model.displacement[:] = rest
 	return 2 / math.sqrt(square), residual / 2
 
 

@@ -333,7 +333,7 @@ def test_missingEngine(without, words, run):
 def test_twoEnginesThatMove(run):
 	standing()
 	O.engines = O.engines + [BlockIntegrator(rescueFile='')]
-	says(refusal(steps(run)), 'O.engines', 'one BlockIntegrator', 'two')
+	says(refusal(steps(run)), 'O.engines', 'one BlockMotion or BlockIntegrator', 'two')
 	standing()
 	O.engines = O.engines + [NewtonIntegrator(), NewtonIntegrator()]
 	says(refusal(steps(run)), 'O.engines', 'one NewtonIntegrator', 'two')

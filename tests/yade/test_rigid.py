@@ -457,7 +457,7 @@ def test_missingEngines():
 	without('ForceResetter')
 	says(refusal(), 'ForceResetter', 'BlockForces')
 	O.engines = full[1:4] + [full[0]] + full[4:]
-	says(refusal(), 'ForceResetter', 'before BlockForces')
+	says(refusal(), 'ForceResetter', 'before BlockLoop or BlockForces')
 	O.engines = full
 	without('NewtonIntegrator')
 	says(refusal(), 'NewtonIntegrator', 'rigid block 2 (body 2)', 'xyzXYZ')

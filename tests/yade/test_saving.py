@@ -78,9 +78,9 @@ def test_theModelIsSavedOnce(tmp_path):
 	assert sizes[1] == sizes[0]
 	assert all(b.shape.model is not None for b in O.bodies)
 	# one model, not a copy for every block: what one block shows changes with what another writes
-	O.bodies[0].shape.model.position[0] = (7, 8)
-	assert tuple(O.bodies[len(O.bodies) - 1].shape.model.position[0]) == (7, 8)
-	assert all(tuple(i.geom.model.position[0]) == tuple(i.phys.model.position[0]) == (7, 8) for i in O.interactions)
+	O.bodies[0].shape.model.displacement[0] = (7, 8)
+	assert tuple(O.bodies[len(O.bodies) - 1].shape.model.displacement[0]) == (7, 8)
+	assert all(tuple(i.geom.model.displacement[0]) == tuple(i.phys.model.displacement[0]) == (7, 8) for i in O.interactions)
 
 
 def test_loadedPropertiesAreThoseSaved(tmp_path):

@@ -42,6 +42,7 @@ void BlockForces::lookAtEngines(BlockModel& model)
 
 void BlockForces::step(BlockModel& model)
 {
+	model.requireBodies(scene);
 	lookAtEngines(model);
 	computeForces(model, threadsFor(model, ompThreads));
 	blocks::BlockAssembly& a = model.assembly;

@@ -228,12 +228,19 @@ void BlockModel::requireProperties()
 	propertiesKnown = version;
 }
 
+void BlockModel::requireBodies(const Scene* scene) const
+{
+	const auto& bodies = scene->bodies->body;
+	for (int id = firstBody; id < firstBody + assembly.blockCount(); ++id)
+		if (size_t(id) >= bodies.size() || !bodies[id])
+			throw std::runtime_error("body " + std::to_string(id) + " was erased, but blocks cannot leave their model");
+}
+
 void BlockModel::writeCentroids(Scene* scene)
 {
 	for (int i = 0; i < assembly.blockCount(); ++i) {
-		const auto& body = (*scene->bodies)[firstBody + i];
-		if (!body) throw std::runtime_error("body " + std::to_string(firstBody + i) + " was erased, but blocks cannot leave their model");
 		if (assembly.isRigid(i)) continue; // it was the body that moved
+		const auto& body = (*scene->bodies)[firstBody + i];
 		const blocks::Vec2 centroid = assembly.centroid(i);
 		body->state->pos            = Vector3r(centroid.x(), centroid.y(), 0);
 	}

@@ -62,6 +62,9 @@ public:
 	/// Refuses joints without properties.
 	void requireProperties();
 
+	/// Refuses a scene from which blocks have been erased.
+	void requireBodies(const Scene*) const;
+
 	/// Centroids of deformable blocks -> state.pos of their bodies, for engines of YADE that look there; Python asks BlockState.
 	void writeCentroids(Scene*);
 
@@ -92,7 +95,7 @@ public:
 		((vector<string>, materialLabels, , Attr::readonly, "Labels of the materials, in the order of :yref:`blockMaterial<BlockModel.blockMaterial>`."))
 		((int, firstBody, -1, Attr::readonly, "Body id of block 0; block i is body firstBody + i."))
 		((bool, showsInteractions, true, Attr::readonly, "Whether pairs and contacts are shown in ``O.interactions``; see :yref:`insert<BlockModel.insert>`."))
-		((vector<shared_ptr<JointMat>>, jointMats, , Attr::readonly, "What bond() was given: properties of the joints between two materials."))
+		((vector<shared_ptr<JointMat>>, jointMats, , Attr::hidden, "What bond() was given: properties of the joints between two materials."))
 		((blocks::BlockAssembly, assembly, , Attr::hidden, "The arrays."))
 		,
 		/*ctor*/,

@@ -48,22 +48,25 @@ namespace {
 	template <class Column> py::list ofPoints(const JointPhys& phys, const Column& column)
 	{
 		py::list list;
-		if (!phys.model || phys.pair < 0) return list;
+		if (phys.pair < 0) return list;
 		const auto& p = phys.model->assembly.joints.pairs[phys.pair];
 		for (int i = 2 * p.first; i < 2 * p.last; ++i)
 			list.append(column[i]);
 		return list;
 	}
-	py::list sigma(const JointPhys& phys) { return phys.model ? ofPoints(phys, phys.model->assembly.state.sigma) : py::list(); }
-	py::list tau(const JointPhys& phys) { return phys.model ? ofPoints(phys, phys.model->assembly.state.tau) : py::list(); }
+	const blocks::State& stateOf(const JointPhys& phys)
+	{
+		if (!phys.model) throw std::runtime_error("JointPhys.model is empty: joints are made by BlockModel.bond or Ip2_BlockMat_BlockMat_JointPhys");
+		return phys.model->assembly.state;
+	}
+	py::list sigma(const JointPhys& phys) { return ofPoints(phys, stateOf(phys).sigma); }
+	py::list tau(const JointPhys& phys) { return ofPoints(phys, stateOf(phys).tau); }
 	py::list status(const JointPhys& phys)
 	{
-		py::list list;
-		if (!phys.model || phys.pair < 0) return list;
-		const auto& p = phys.model->assembly.joints.pairs[phys.pair];
-		for (int i = 2 * p.first; i < 2 * p.last; ++i)
-			list.append(int(phys.model->assembly.state.status[i]));
-		return list;
+		vector<int> numbers;
+		for (blocks::Joint status : stateOf(phys).status)
+			numbers.push_back(int(status));
+		return ofPoints(phys, numbers);
 	}
 } // namespace
 

@@ -114,7 +114,7 @@ TEST(TimeStep, JointsShareInClosedForm)
 	addGrid(a, { 0, 0 }, 1.6, 0.5, 2, 1);
 	addGrid(a, { 0, 0.5 }, 1.6, 0.5, 1, 1);
 	JointParams joint = elasticJoint(3, 5);
-	joint.tanDilation = 0.5;
+	joint.tanPhiResidual = joint.tanDilation = 0.5;
 	bondAll(a, joint);
 	const auto K    = nodalStiffness(a);
 	const Real unit = 2 * 6.5 * 0.4;

@@ -182,6 +182,7 @@ void BlockAssembly::setJoints(int first, int last, const JointParams& params, Jo
 		joints.kind[i] = kind;
 		for (int k : { 0, 1 })
 			state.status[2 * i + k] = status;
+		if (status != Joint::intact) forces.broke[i / Joints::batch] = true;
 	}
 	noteKinds(first, last);
 }

@@ -46,6 +46,15 @@ namespace {
 
 } // namespace
 
+Real meanEdge(const BlockAssembly& a, int block)
+{
+	Real      outline = 0;
+	const int first = a.mesh.firstEdge[block], last = a.mesh.firstEdge[block + 1];
+	for (int e = first; e < last; ++e)
+		outline += (a.mesh.reference[a.mesh.edgeNodes[e][1]] - a.mesh.reference[a.mesh.edgeNodes[e][0]]).norm();
+	return outline / (last - first);
+}
+
 void sortContacts(BlockAssembly& a)
 {
 	FreeContacts& f = a.contacts;
