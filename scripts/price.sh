@@ -32,7 +32,8 @@ interpreter="$(head -1 "$yade" | sed 's/^#! *//')"
 yade -n -x -j1 scripts/price.py part=states "$@"
 for scene in tension compression crushed; do
 	yade -n -x -j1 scripts/price.py part=times scene=$scene "$@"
-	OMP_NUM_THREADS=1 valgrind -q --tool=callgrind --instr-atstart=no --compress-strings=no --compress-pos=no --callgrind-out-file="$folder/$scene.callgrind" \
+	OMP_NUM_THREADS=1 valgrind -q --tool=callgrind --instr-atstart=no --compress-strings=no --compress-pos=no \
+		--callgrind-out-file="$folder/$scene.callgrind" \
 		"$interpreter" "$yade" -n -x -j1 scripts/price.py part=counts scene=$scene "$@"
 done
 [ "$(nproc)" = 1 ] || for scene in tension compression; do yade -n -x -j2 scripts/price.py part=threads scene=$scene "$@"; done
