@@ -4,14 +4,7 @@
 # the same machine code; some minutes the first time).
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/setup.sh
-if [ "$(dpkg-query -W -f '${db:Status-Status}' valgrind 2>/dev/null)" != installed ]; then
-	root=""
-	[ "$(id -u)" = 0 ] || root="sudo -n"
-	export DEBIAN_FRONTEND=noninteractive
-	$root apt-get update -q
-	$root apt-get install -q -y --no-install-recommends valgrind
-fi
+scripts/setup.sh valgrind
 
 folder=out/price
 mkdir -p build/price "$folder"
