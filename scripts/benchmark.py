@@ -4,13 +4,13 @@
 	scripts/benchmark.sh [mode=quick|full|calibrate] [experiment=tension|shear|compression] [key=value ...]
 
 What is run are the tables below: each point for several seeds, a process each. A result is kept under a hash of parameters and code
-(yadeblocks.jobs): an interrupted benchmark continues, and nothing old is taken for new. For each experiment out/benchmark/ gets
+(laboratory.jobs): an interrupted benchmark continues, and nothing old is taken for new. For each experiment out/benchmark/ gets
 NAME-MODE.png (error over CPU seconds, and its reading), NAME-MODE.md (table and reading), NAME-MODE.csv and NAME-MODE-runs.csv.
 
 	mode=quick      less than ten minutes on two idle cores
 	mode=full       every knob, all stresses, finer packings: about two hours on two idle cores
-	mode=calibrate  goes on with the calibration of YADE's models (model=NAME: of this one only) from scripts/calibrated.json, and writes it; a report says which
-	                calibrations were made with other code, targets, packings or ties than today's
+	mode=calibrate  goes on with the calibration of YADE's models (model=NAME: of this one only) from scripts/calibrated.json, and writes it; a report says
+			which calibrations were made with other code, targets, packings or ties than today's
 
 Errors are against the laboratory and against a slow run of the same specimen, whose own convergence is shown by one twice as fast (references of other
 specimens than the usual are half as slow).
@@ -21,28 +21,29 @@ import math
 import os
 import signal
 import sys
-import types
 from pathlib import Path
+from typing import NamedTuple, Optional
 
 if "yade" in sys.modules: sys.exit("benchmark is no scenario: start scripts/benchmark.sh, outside YADE")
 
 house = Path(__file__).resolve().parents[1]
-package = types.ModuleType("yadeblocks") # its modules without the plugin, which importing the package would load
-package.__path__ = [str(house / "py" / "yadeblocks")]
-sys.modules["yadeblocks"] = package
-
-from typing import NamedTuple, Optional
+sys.path.insert(0, str(house / "py"))
 
 import pandas
-
-from yadeblocks import calibration, curves, scenario, study, tradeoff, tradeoffpicture
-from yadeblocks.jobs import Job, Jobs, machine, yadeVersion
+from laboratory import calibration, study, tradeoff, tradeoffpicture
+from laboratory.jobs import Job, Jobs, machine, yadeVersion
+from yadeblocks import scenario
+from yadeblocks.experiments import compressiveStrength, expected, peakShearStress, residualShearStress, shearCohesion, shearFriction, youngsModulus
+from yadeblocks.provenance import fingerprint
 
 # ---- parameters
 
-modelsOf = { # of YADE: spheres, and polyhedra with MortarMat; planes and MortarMat, which has no friction once broken, have nothing to offer to a prism whose bricks split
-	"tension": ("jcfpm", "jcfpmSmooth", "cohfrict", "cpm", "lourenco", "polyhedra"), "shear": ("jcfpm", "jcfpmSmooth", "cohfrict", "cpm", "lourenco", "polyhedra"),
-	"compression": ("jcfpm", "cohfrict", "cpm")}
+# Of YADE: spheres, and polyhedra with MortarMat. Planes and MortarMat, which has no friction once broken, have nothing to offer to a prism whose bricks split.
+modelsOf = {
+	**dict.fromkeys(("tension", "shear"), ("jcfpm", "jcfpmSmooth", "cohfrict", "cpm", "lourenco", "polyhedra")), "compression": (
+		"jcfpm", "cohfrict", "cpm"
+	)
+}
 
 p = scenario.parameters({
 	"mode": "quick", "experiment": "all", "seeds": 5, "jobs": os.cpu_count() or 1, "model": "all", "limit": 1800.0, "retry": False, "out": "out/benchmark"
@@ -52,6 +53,7 @@ p = scenario.parameters({
 }, scenario="benchmark")
 experiments = ("tension", "shear", "compression") if p.experiment == "all" else (p.experiment, )
 sigmas = (0.1e6, 0.5e6, 1e6) # [Pa], shear
+middlePeak, middleResidual = peakShearStress(sigmas[1])[0], residualShearStress(sigmas[1])[0] # [MPa]
 
 # ---- the study: for each experiment lines of (knob, what changes the specimen, what changes only the way it is computed)
 
@@ -79,27 +81,40 @@ def oneSet(n):
 def layers(unit, mortar):
 	return {"unitSize": unit, "mortarSize": mortar}
 
-blocks = { # a setting that a scenario refuses is in the table as failed
+
+# A setting that a scenario refuses is in the table as failed.
+quickTension = steps(2500, 5000, 10000, 20000) + way("alpha", 10000, 0.3) + way("jump", 10000, False) + way("servo", 10000, True)
+quickShear = steps(1500, 3000, 6000) + way("alpha", 6000, 0.8) + way("servo", 1500, True)
+
+fullTension = steps(1000, 2500, 5000, 10000, 20000, 40000, 80000) + way("alpha", 10000, 0.1, 0.3, 0.5) + way("alpha", 40000, 0.1, 0.3, 0.5)
+fullTension += way("damping", 10000, "adaptive", "none") + way("damping", 40000, "adaptive", "none") + way("jump", 5000, False) + way("jump", 20000, False)
+fullTension += way("servo", 2500, True) + way("servo", 10000, True) + way("servo", 10000, True, jump=False)
+fullTension += way("safety", 20000, 0.4) + way("safety", 20000, 0.9, alpha=0.1) + way("alpha", 20000, 0.1)
+fullTension += specimen("size", 40000, 1e-3, 1.5e-3, 3e-3, 6e-3) + specimen("plane", 40000, "stress") + specimen("units", 40000, "voronoi")
+
+fullShear = steps(1500, 3000, 6000, 12000, 24000, 48000) + oneSet(24000) + way("alpha", 12000, 0.1, 0.5, 0.8)
+fullShear += way("damping", 12000, "adaptive", "none") + way("jump", 12000, False) + way("servo", 3000, True) + way("safety", 12000, 0.4, 0.85)
+fullShear += specimen("size", 12000, 2.5e-3, 5e-3) + specimen("plane", 12000, "stress") + specimen("units", 12000, "voronoi")
+
+fullCompression = steps(2500, 5000, 10000, 20000, 30000, 60000) + way("alpha", 30000, 0.1, 0.4, 0.8)
+fullCompression += way("damping", 30000, "adaptive", "none") + way("jump", 10000, False) + way("servo", 5000, True) + way("safety", 20000, 0.4, 0.85)
+fullCompression += specimen("size", 30000, layers(15e-3, 4.5e-3), layers(7e-3, 3e-3)) + specimen("plane", 30000, "stress") + specimen("units", 30000, "plain")
+
+blocks = {
 	"quick": {
-		"tension": steps(2500, 5000, 10000, 20000) + way("alpha", 10000, 0.3) + way("jump", 10000, False) + way("servo", 10000, True) + specimen("size", 10000, 6e-3),
-		"shear 0.1": steps(6000),
-		"shear 0.5": steps(1500, 3000, 6000) + way("alpha", 6000, 0.8) + way("servo", 1500, True),
-		"shear 1.0": steps(6000),
-		"compression": steps(5000, 10000)},
+		"tension": quickTension + specimen("size", 10000, 6e-3), "shear 0.1": steps(6000), "shear 0.5": quickShear, "shear 1.0": steps(6000),
+		"compression": steps(5000, 10000)
+	}, "full": {"tension": fullTension, **dict.fromkeys(("shear 0.1", "shear 0.5", "shear 1.0"), fullShear), "compression": fullCompression}
+}
+# Multiples of the steps and radius they were calibrated with (slow: of the references' steps where they are not 4; None: no references); packings: at most
+# so many; without: what takes four times as long as the others.
+spheres = {
+	"quick": {"steps": (1, ), "slow": None, "radius": (), "stresses": ("0.5", ), "packings": 4, "without": [("lourenco", "shear"), ("polyhedra", "shear")]},
 	"full": {
-		"tension": steps(1000, 2500, 5000, 10000, 20000, 40000, 80000) + way("alpha", 10000, 0.1, 0.3, 0.5) + way("alpha", 40000, 0.1, 0.3, 0.5)
-		+ way("damping", 10000, "adaptive", "none") + way("damping", 40000, "adaptive", "none") + way("jump", 5000, False) + way("jump", 20000, False)
-		+ way("servo", 2500, True) + way("servo", 10000, True) + way("servo", 10000, True, jump=False) + way("safety", 20000, 0.4) + way("safety", 20000, 0.9, alpha=0.1) + way("alpha", 20000, 0.1)
-		+ specimen("size", 40000, 1e-3, 1.5e-3, 3e-3, 6e-3) + specimen("plane", 40000, "stress") + specimen("units", 40000, "voronoi"),
-		**dict.fromkeys(("shear 0.1", "shear 0.5", "shear 1.0"), steps(1500, 3000, 6000, 12000, 24000, 48000) + oneSet(24000) + way("alpha", 12000, 0.1, 0.5, 0.8)
-				+ way("damping", 12000, "adaptive", "none") + way("jump", 12000, False) + way("servo", 3000, True)
-				+ way("safety", 12000, 0.4, 0.85) + specimen("size", 12000, 2.5e-3, 5e-3) + specimen("plane", 12000, "stress") + specimen("units", 12000, "voronoi")),
-		"compression": steps(2500, 5000, 10000, 20000, 30000, 60000) + way("alpha", 30000, 0.1, 0.4, 0.8)
-		+ way("damping", 30000, "adaptive", "none") + way("jump", 10000, False) + way("servo", 5000, True)
-		+ way("safety", 20000, 0.4, 0.85) + specimen("size", 30000, layers(15e-3, 4.5e-3), layers(7e-3, 3e-3)) + specimen("plane", 30000, "stress") + specimen("units", 30000, "plain")}}
-spheres = { # multiples of the steps and radius they were calibrated with (slow: of the references' steps where they are not 4; None: no references); packings: at most so many
-	"quick": {"steps": (1,), "slow": None, "radius": (), "stresses": ("0.5",), "packings": 4, "without": [("lourenco", "shear"), ("polyhedra", "shear")]}, # they take four times as long as the others
-	"full": {"steps": (0.25, 0.5, 1), "slow": {"lourenco shear": None, "polyhedra shear": 2, "cohfrict shear": 2}, "radius": (0.7,), "stresses": ("0.1", "0.5", "1.0"), "packings": 4, "without": []}}
+		"steps": (0.25, 0.5, 1), "slow": {"lourenco shear": None, "polyhedra shear": 2, "cohfrict shear": 2}, "radius": (0.7, ),
+		"stresses": ("0.1", "0.5", "1.0"), "packings": 4, "without": []
+	}
+}
 radius = {"tension": 1.5e-3, "shear": 2e-3, "compression": 2.5e-3} # of the spheres in the mortar [m], as in spheres.py
 sphereSteps = {
 	"tension": 20000, "shear": 8000, "compression": 10000, "cohfrict shear": 32000
@@ -207,7 +222,7 @@ def truths(case, model, results):
 	"""The laboratory's values; the stiffness in theory is that of the specimen as its scenario says. Broken bonds of MortarMat on polyhedra
 	carry nothing, so they have no residual stress to compare."""
 	said = next((result["expected"] for result in results.values() if result and "expected" in result), {})
-	known = {name: value for name, (value, source) in curves.expectations(case.split()[0], stressOf(case).get("sigma", 0)).items()}
+	known = {name: value for name, (value, source) in expected(case.split()[0], stressOf(case).get("sigma", 0)).items()}
 	if model == "polyhedra": known.pop("residual_shear_stress", None)
 	return {**known, **{name: said[name] for name in said if name == "joint_stiffness"}}
 
@@ -236,10 +251,9 @@ def report(jobs, experiment, all):
 	pandas.DataFrame(runRecords(jobs, all)).to_csv(f"{place}-runs.csv", index=False, float_format="%.6g")
 	Path(f"{place}.md"
 		).write_text(f"# {experiment}, {p.mode} mode\n\n" + "\n".join("- " + line for line in lines) + "\n\n" + tradeoff.asMarkdown(rows, names) + "\n")
-	tradeoffpicture.drawTradeoff(
-		f"{place}.png", cases, names, lines, title=
-		f"{experiment}: error over CPU time, {max(len(point.seeds) for point in all)} seeds a point, {min(p.seeds, spheres[p.mode]['packings'])} packings of YADE's models"
-	)
+	seeds, packings = max(len(point.seeds) for point in all), min(p.seeds, spheres[p.mode]["packings"])
+	title = f"{experiment}: error over CPU time, {seeds} seeds a point, {packings} packings of YADE's models"
+	tradeoffpicture.drawTradeoff(f"{place}.png", cases, names, lines, title=title)
 	print(f"\n{experiment}\n" + "\n".join(lines) + f"\nsee {place}.png, .md, .csv", flush=True)
 
 
@@ -285,12 +299,12 @@ def polyhedraFit(experiment, known):
 	"""Parameters of polyhedra.py; in shear the stiffness is that found in tension."""
 	seeds = (101, 102, 103)
 	if experiment == "tension":
-		return Fit({"kn": 400e9, "tension": 0.6e6}, {name: value for name, (value, source) in curves.expectations("tension").items()},
+		return Fit({"kn": 400e9, "tension": 0.6e6}, {name: value for name, (value, source) in expected("tension").items()},
 				{"peak_tensile_stress": "tension", "joint_stiffness": "kn"}, seeds, lambda q: {**q, "cohesion": q["tension"], "friction": 38})
 	kn = known["polyhedra tension"]["parameters"]["kn"]
 	return Fit(
 		{"cohesion": 3e6},
-		{"middle": 1.375},
+		{"middle": middlePeak},
 		{"middle": "cohesion"},
 		seeds, # bonds break in tension: friction angles of 62 and 83 degrees came no nearer to the slope
 		lambda q: {"kn": kn, "cohesion": q["cohesion"], "tension": q["cohesion"] / 2, "friction": 45}
@@ -312,9 +326,11 @@ def fits(model, experiment, known):
 				**q, **smoothPlanes(q, experiment), "jointTension": q["tension"], "jointCohesion": q["cohesion"], "jointFriction": 38
 			}
 
-		return Fit({"mortarYoung": 1.6e9, "tension": 1e6}, {name: value for name, (value, source) in curves.expectations("tension").items()},
+		return Fit({"mortarYoung": 1.6e9, "tension": 1e6}, {name: value for name, (value, source) in expected("tension").items()},
 				{"peak_tensile_stress": "tension", "joint_stiffness": "mortarYoung"}, (101, 102, 103), tied)
-	if experiment == "shear": # Table 5: tensile strength = half the cohesion; mortar stiffer by 1.05 (series of mortar and joints, sides of 3.5 for 3.2 mm), bricks 21 times the mortar
+	if experiment == "shear":
+		# Table 5: tensile strength = half the cohesion. Mortar is stiffer by 1.05 (series of mortar and joints, sides of 3.5
+		# for 3.2 mm), bricks 21 times the mortar.
 		young = 1.05 * known[f"{model} tension"]["parameters"]["mortarYoung"]
 
 		def tied(q):
@@ -333,18 +349,21 @@ def fits(model, experiment, known):
 				"residualFriction": degrees(q["tangent"]) if model in ("jcfpm", "cohfrict") else 36
 			}
 
-		start, targets, governs = {"cohesion": 3e6, "tangent": 1.0}, {"intercept": 0.87, "slope": 1.01}, {
+		start, targets, governs = {"cohesion": 3e6, "tangent": 1.0}, {"intercept": shearCohesion, "slope": shearFriction}, {
 			"intercept": "cohesion", "slope": "tangent"
 		} # of the line through the three peaks
 		if model in ("jcfpm", "cohfrict"): # friction moves the residual, hardly the slope of the peaks: bonds break in tension
-			start, targets, governs = {"cohesion": 5e6, "tangent": 0.1}, {"middle": 1.375,
-											"residual": 0.365}, {"middle": "cohesion", "residual": "tangent"}
+			start, targets, governs = {"cohesion": 5e6,
+							"tangent": 0.1}, {"middle": middlePeak,
+										"residual": middleResidual}, {"middle": "cohesion", "residual": "tangent"}
 		if model == "cpm": # neither of both: with a friction of 5 degrees its residual is as high as before
-			start, targets, governs = {"cohesion": 4.5e6, "tangent": 1.0}, {"middle": 1.375}, {"middle": "cohesion"}
-		if model == "jcfpmSmooth": # friction is needed for the residual, so the planes' cohesion has to make up for the slope: 0.95 is the best line of slope 0.73 + what bulk bonds add
+			start, targets, governs = {"cohesion": 4.5e6, "tangent": 1.0}, {"middle": middlePeak}, {"middle": "cohesion"}
+		if model == "jcfpmSmooth":
+			# Friction is needed for the residual, so the planes' cohesion has to make up for the slope.
+			# 0.95 is the best line of slope 0.73 + what bulk bonds add.
 			start, targets, governs = {"cohesion": 1.5e6,
 							"tangent": 0.73}, {"intercept": 0.95,
-										"residual": 0.365}, {"intercept": "cohesion", "residual": "tangent"}
+										"residual": middleResidual}, {"intercept": "cohesion", "residual": "tangent"}
 		return Fit(start, targets, governs, (101, 102, 103), tied)
 
 	def tied(q): # Tables 7 to 9: bricks 8 times as stiff as mortar with their joints, 10.7 times as strong; cohesion twice the tensile strength
@@ -356,7 +375,7 @@ def fits(model, experiment, known):
 			**q, **smoothPlanes(q, experiment), "jointTension": q["tension"], "jointCohesion": q["cohesion"], "jointFriction": 15
 		}
 
-	return Fit({"mortarYoung": 2.3e9, "tension": 1.7e6}, {"compressive_strength": 27.5, "youngs_modulus": 4100},
+	return Fit({"mortarYoung": 2.3e9, "tension": 1.7e6}, {"compressive_strength": compressiveStrength[0], "youngs_modulus": youngsModulus[0]},
 			{"compressive_strength": "tension", "youngs_modulus": "mortarYoung"}, tuple(range(101, 111)), tied) # packings differ by a sixth
 
 
@@ -388,7 +407,7 @@ def codeOf(model):
 		house / "scripts" / ("polyhedra.py" if model == "polyhedra" else "spheres.py"),
 		*(house / "py" / "yadeblocks" / f"{name}.py" for name in ("packing", "loading", "curves"))
 	]
-	return study.fingerprint((), yadeVersion(), *map(study.meaning, parts))[:16]
+	return fingerprint((), yadeVersion(), *map(study.meaning, parts))[:16]
 
 
 def staleCalibrations(experiment):
@@ -405,7 +424,8 @@ def staleCalibrations(experiment):
 			}
 		)
 		if reasons:
-			yield f"Stale: {model} was calibrated with other {', '.join(reasons)}; mode=calibrate experiment={experiment} model={model} does it again."
+			again = f"mode=calibrate experiment={experiment} model={model} does it again"
+			yield f"Stale: {model} was calibrated with other {', '.join(reasons)}; {again}."
 
 
 def calibrateAll(jobs):

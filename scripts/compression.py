@@ -2,7 +2,8 @@
 """Compression of a masonry prism (paper, section 3.3; experiment of Oliveira 2003).
 
 Five bricks of 285 x 130 x 50 mm and four mortar joints of 10 mm, all made of Voronoi blocks, between smooth platens; the model is
-the front view, 285 mm wide (the paper's Fig. 20d speaks of a lateral view: width=0.13). The top platen comes down at 0.01 mm/s. Stress is its force by its area, strain its path by the height.
+the front view, 285 mm wide (the paper's Fig. 20d speaks of a lateral view: width=0.13). The top platen comes down at 0.01 mm/s. Stress is its
+force by its area, strain its path by the height.
 
 	scripts/run.sh compression [unitSize=0.01] [mortarSize=0.003] [residualFriction=zero|kept] [key=value ...]        about 20 s a seed
 
@@ -16,13 +17,16 @@ from math import radians
 
 import numpy as np
 
-import yadeblocks
+import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import loading, pictures, scenario
-from yadeblocks.export import BlocksExport
+from yadeblocks import curves, experiments, loading, pictures, scenario
+from yadeblocks.engines import engineList
+from yadeblocks.export import State, writeStates
 from yadeblocks.progress import Progress, loadingLine
-from yadeblocks.results import Cracks, Results, engineCosts
-from yadeblocks.specimen import nodesWhere, rectangle
+from yadeblocks.recording import Recorder
+from yadeblocks.results import Cracks, engineCosts
+from yadeblocks.session import Session
+from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 
 # ---- parameters (SI)
 
@@ -71,91 +75,92 @@ def build(seed):
 	return model
 
 
-def crush(seed, steps, label):
-	"""Presses until the stress has fallen to half the strength. The model; the columns strain, stress [Pa],
-	lateral strain of the middle brick, broken contact points, unbalanced ratio; the cracks; their numbers at the peak."""
-	model = build(seed)
+def crush(stage, seed, steps):
+	"""Presses until the stress has fallen to half the strength. The model; the recorder of strain, stress [Pa], lateral strain of the middle brick, broken
+	contact points and unbalanced ratio; the cracks."""
+	model = stage.model or build(seed)
 	middle = lambda x, y: abs(y - height / 2) < brickHeight / 2
 	left, right = nodesWhere(model, lambda x, y: middle(x, y) & (x < 1e-9)), nodesWhere(model, lambda x, y: middle(x, y) & (x > p.width - 1e-9))
-	floor, cracks, atPeak = 1e-3 * mortarJoint['tension'] * area, Cracks(model), {}
+	floor, cracks = 1e-3 * mortarJoint['tension'] * area, Cracks(model)
 	stop = loading.Stop(drop=0.5, displacement=p.stroke)
-	history = []
+	wider = Gauge(model, left, right, 'x')
+	record = Recorder(
+		strain=lambda: -model.groupTravelled('platen') / height, stress=lambda: -model.groupForce('platen') / area, lateral=lambda: wider() / p.width,
+		broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=floor)
+	)
+	with Progress(steps, lambda: loadingLine(record.last.strain * height, record.last.stress, model), label=stage.label) as progress:
+		record.after(lambda row: cracks.noteStress(row.stress))
+		record.after(lambda row: progress(int(-steps * model.groupTravelled('platen') / p.stroke)))
+		record.after(lambda row: stop(-model.groupTravelled('platen'), row.stress, row.broken))
+		stage.keep(record=record, cracks=cracks, stop=stop)
+		if not stage.model: begin(model, steps, floor, record)
+		stage.run()
+	return model, record, cracks
 
-	def record():
-		stress = -model.groupForce('platen') / area
-		displacement = model.position[:, 0] - model.reference[:, 0]
-		history.append((
-			-model.groupTravelled('platen') / height, stress, (displacement[right].mean() - displacement[left].mean()) / p.width, cracks.look(),
-			model.unbalancedRatio(floor=floor)
-		))
-		if stress > stop.peak: atPeak.update(cracks.counts())
-		progress(int(-steps * model.groupTravelled('platen') / p.stroke))
-		stop(-model.groupTravelled('platen'), stress, history[-1][3])
 
-	O.dt = p.stroke / velocity / steps
-	O.engines = [
-		BlockContacts(),                                           # broken joints may slide on, part and meet again
-		InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0),   # woken where something moved far enough
-		InteractionLoop([Ig2_Block_Block_BlockGeom()],            # opening and slip
-		[Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
+def begin(model, steps, floor, record):
+	"""The engines, and the way to the first crack."""
+	joints = [
 		JointMat(material1='unit', material2='unit', **brickJoint),
 		JointMat(material1='mortar', material2='mortar', **mortarJoint),
-		JointMat(material1='unit', material2='mortar', **mortarJoint)])],
-		[Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
-		BlockTimeStepper(safety=p.safety),                         # scaled masses
-		BlockForces(),                                             # zones and joints, gathered node by node
-		BlockIntegrator(damping=p.damping, alpha=p.alpha)]         # motion
-	if p.servo: O.engines = O.engines[:-1] + [BlockServo(groups=['platen'], floor=floor)] + O.engines[-1:] # as slow as the blocks want it
-	globals()['record'] = record
-	with Progress(steps, lambda: loadingLine(history[-1][0] * height, history[-1][1], model), label=label) as progress:
-		O.run(1, True)
+		JointMat(material1='unit', material2='mortar', **mortarJoint)
+	]
+	servo = dict(groups=['platen'], floor=floor) if p.servo else None
+	O.dt = p.stroke / velocity / steps
+	O.engines = engineList( # broken joints may slide on, part and meet again
+		joints, contact=True, stepper=dict(safety=p.safety), servo=servo, damping=p.damping, alpha=p.alpha
+	)
+	O.run(1, True)
+	record()
+	if p.jump:
+		model.elasticJump()
 		record()
-		if p.jump:
-			model.elasticJump()
-			record()
-		O.engines += [PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
-		O.run()
-		O.wait()
-	return model, np.array(history).T, cracks, atPeak
+	O.engines += [record.engine(max(1, min(50, steps // 400)))]
 
 
 # ---- running
 
-results = Results(p)
 O.timingEnabled = True
-for seed in p.seedList:
-	with results.run(seed) as run:
-		with run.stepping():
-			model, (strain, stress, lateral, broken, unbalanced), cracks, atPeak = crush(seed, p.steps, 'seed %d' % seed)
-		peak = stress.argmax()
-		elastic = (stress > 0.05 * stress[peak]) & (stress < 0.33 * stress[peak]) & (np.arange(len(stress)) < peak)
-		run.add('compressive_strength', 'MPa', stress[peak] / 1e6, 27.5, 'Oliveira 2003')
-		slope = lambda column: np.polyfit(strain[elastic], column[elastic], 1)[0] if elastic.sum() > 1 else np.nan
-		run.add('youngs_modulus', 'MPa', slope(stress) / 1e6, 4100, 'Oliveira 2003')
-		run.add('strain_at_peak', '1', strain[peak])
-		run.add('lateral_strain_at_peak', '1', lateral[peak])
-		run.add('lateral_by_vertical_strain', '1', slope(lateral))
-		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
-		run.add('first_crack_height', 'mm', cracks.first[0][1] * 1e3)
-		run.add('first_crack_in_mortar', '1', cracks.first[1] != 'unit-unit' if cracks.first[1] else np.nan) # a mean over seeds is a share
-		run.add('cracks_at_peak', '1', broken[peak])
-		for pair, counts in atPeak.items():
-			run.add('cracks_at_peak_' + pair, '1', sum(counts.values()))
-		if p.units == 'voronoi': run.add('steep_share_unit-unit', '1', cracks.steepShare('unit-unit')) # a third if cracks ran every way alike
-		run.add('steep_share_mortar-mortar', '1', cracks.steepShare('mortar-mortar'))
-		run.curve(strain_permille=1e3 * strain, stress_MPa=stress / 1e6, lateral_permille=1e3 * lateral, broken=broken)
-		run.model(model, steps=O.iter, **engineCosts(model, O.iter))
-		run.quality(unbalanced_ratio_max=unbalanced[len(unbalanced) // 10:].max())
-	if seed == p.seed:
-		if p.vtk: BlocksExport(p.folder).write(model, O.time)
-		pictures.drawCracks(p.folder / 'cracks.png', model, title='Prism in compression, seed %d' % seed)
-	if p.halfRate:
-		slow = crush(seed, 2 * p.steps, 'seed %d, half rate' % seed)[1][1].max()
-		run.quality(half_rate_change=slow / stress[peak] - 1)
-
-results.write()
-pictures.drawCurve(
-	p.folder / 'curve.png', results.curves, 'strain_permille', 'stress_MPa', labels=('strain [‰]', 'compressive stress [N/mm²]'),
-	title='Prism in compression', references=[pictures.Reference('strength, Oliveira 2003', 27.5)]
-)
+with Session(p) as session:
+	for seed in p.seedList:
+		if session.wants(seed):
+			with session.run(seed) as run:
+				stage = session.stage('seed %d' % seed)
+				with run.stepping():
+					model, record, cracks = crush(stage, seed, p.steps)
+				strain, stress, lateral, broken = (record[name] for name in ('strain', 'stress', 'lateral', 'broken'))
+				strength, peak = curves.peak(strain, stress)
+				elastic = (stress > 0.05 * strength) & (stress < 0.33 * strength) & (np.arange(len(stress)) < peak)
+				run.add('compressive_strength', 'MPa', strength / 1e6, *experiments.compressiveStrength)
+				slope = lambda column: np.polyfit(strain[elastic], column[elastic], 1)[0] if elastic.sum() > 1 else np.nan
+				run.add('youngs_modulus', 'MPa', slope(stress) / 1e6, *experiments.youngsModulus)
+				run.add('strain_at_peak', '1', strain[peak])
+				run.add('lateral_strain_at_peak', '1', lateral[peak])
+				run.add('lateral_by_vertical_strain', '1', slope(lateral))
+				run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
+				run.add('first_crack_height', 'mm', cracks.first[0][1] * 1e3)
+				run.add(
+					'first_crack_in_mortar', '1', cracks.first[1] != 'unit-unit' if cracks.first[1] else np.nan
+				) # a mean over seeds is a share
+				run.add('cracks_at_peak', '1', broken[peak])
+				for pair, counts in cracks.atPeak.items():
+					run.add('cracks_at_peak_' + pair, '1', sum(counts.values()))
+				if p.units == 'voronoi':
+					run.add('steep_share_unit-unit', '1', cracks.steepShare('unit-unit')) # a third if cracks ran every way alike
+				run.add('steep_share_mortar-mortar', '1', cracks.steepShare('mortar-mortar'))
+				run.curve(strain_permille=1e3 * strain, stress_MPa=stress / 1e6, lateral_permille=1e3 * lateral, broken=broken)
+				run.model(model, steps=O.iter, **engineCosts(model, O.iter))
+				run.quality(unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max())
+			if seed == p.seed:
+				session.picture('cracks.png', pictures.drawCracks, model, title='Prism in compression, seed %d' % seed)
+				if p.vtk: session.later(writeStates, p.folder, State(model, O.time))
+		if p.halfRate and session.wants(seed, 'half_rate_change'):
+			slow = crush(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]
+			strength = curves.peak(slow['strain'], slow['stress'])[0] / 1e6
+			session.quality(seed, half_rate_change=strength / session.measured(seed, 'compressive_strength') - 1)
+	session.write()
+	session.picture(
+		'curve.png', pictures.drawCurve, session.results.curves, 'strain_permille', 'stress_MPa', labels=('strain [‰]', 'compressive stress [N/mm²]'),
+		title='Prism in compression', references=[pictures.Reference('strength, Oliveira 2003', experiments.compressiveStrength[0])]
+	)
 scenario.waitIfBatch()

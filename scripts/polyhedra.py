@@ -15,19 +15,28 @@ from math import radians
 
 import numpy as np
 
-import yadeblocks
+import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yade import log, utils
-from yadeblocks import curves, loading, scenario
+from yadeblocks import curves, loading, running, scenario
+from yadeblocks.experiments import expected
 from yadeblocks.progress import Progress
-from yadeblocks.results import Results
+from yadeblocks.recording import Recorder, runner
+from yadeblocks.session import Session
 from yadeblocks.specimen import rectangle
 
 # ---- parameters (SI)
 
-experiments = { # width, stroke, densities of brick and mortar, size and what it means, steps, stiffness of bonds [Pa/m], strengths [Pa], friction angle
-	'tension': dict(width=0.1, stroke=0.03e-3, densities=(1900, 1250), size=2e-3, sizeMeaning='edge', lloyd=0, merge=0.2, steps=20000, kn=400e9, tension=0.6e6, cohesion=0.6e6, friction=38.0),
-	'shear': dict(width=0.2, stroke=1e-3, densities=(1900, 3250), size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, merge=0.1, steps=8000, kn=400e9, tension=1.5e6, cohesion=3e6, friction=45.0)}
+# Width, stroke, densities of brick and mortar, size and what it means, steps, stiffness of bonds [Pa/m], strengths [Pa], friction angle.
+experiments = {
+	'tension': dict(
+		width=0.1, stroke=0.03e-3, densities=(1900, 1250), size=2e-3, sizeMeaning='edge', lloyd=0, merge=0.2, steps=20000, kn=400e9, tension=0.6e6,
+		cohesion=0.6e6, friction=38.0
+	), 'shear': dict(
+		width=0.2, stroke=1e-3, densities=(1900, 3250), size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, merge=0.1, steps=8000, kn=400e9, tension=1.5e6,
+		cohesion=3e6, friction=45.0
+	)
+}
 brickHeight, mortarHeight, thickness, unitSize = 0.05, 0.015, 0.05, 8e-3
 
 p = scenario.parameters({
@@ -159,7 +168,7 @@ def run(seed):
 	axis, press = (0, p.pressSteps) if p.experiment == 'shear' else (1, 0)
 	velocity = specimen['stroke'] / (p.steps * dt)
 	made.hold()
-	history, start = [], O.iter
+	start = O.iter
 	approach = loading.Approach(made, 'top', p.approach if press else 1)
 	travelled = lambda: abs(np.mean([O.bodies[i].state.displ()[axis] for i in made.top]))
 
@@ -172,39 +181,33 @@ def run(seed):
 			now[axis] = speed
 			O.bodies[i].state.vel = now
 
-	def record():
-		history.append((made.movement(axis), -sum(O.forces.f(i)[axis] for i in made.top) / area))
+	def react(row):
 		loaded = travelled() > 0.01 * specimen['stroke'] # what comes before is noise
-		approach(history[-1][1], loaded)
-		stop(travelled(), history[-1][1], loaded)
+		approach(row.stress, loaded)
+		stop(travelled(), row.stress, loaded)
 		progress(travelled() / specimen['stroke'] * p.steps)
 
-	globals().update(load=load, record=record)
-	O.engines += [
-		PyRunner(command='load()', iterPeriod=max(1, p.steps // 250)),
-		PyRunner(command='record()', iterPeriod=max(1, p.steps // (800 if p.experiment == 'tension' else 400)))
-	]
+	record = Recorder(moved=lambda: made.movement(axis), stress=lambda: -sum(O.forces.f(i)[axis] for i in made.top) / area).after(react)
+	O.engines += [runner('load', load, max(1, p.steps // 250)), record.engine(max(1, p.steps // (800 if p.experiment == 'tension' else 400)))]
 	load()
 	stop = loading.Stop(drop=0.5, displacement=specimen['stroke'])
-	with Progress(p.steps, lambda: 'stress %.3f MPa' % (history[-1][1] / 1e6), label='seed %d' % seed) as progress:
-		O.run()
-		O.wait()
-	return made, np.array(history).T
+	with Progress(p.steps, lambda: 'stress %.3f MPa' % (record.last.stress / 1e6), label='seed %d' % seed) as progress:
+		running.run()
+	return made, record['moved'], record['stress']
 
 
 # ---- running
 
-results = Results(p)
 log.setLevel('NewtonIntegrator', log.ERROR)
-for seed in p.seedList:
-	with results.run(seed) as result:
-		with result.stepping():
-			made, (displacement, stress) = run(seed)
-		x, y = displacement * 1e3, stress / 1e6
-		for name, (value, unit) in curves.measure(p.experiment, x, y).items():
-			expected, source = curves.expectations(p.experiment, p.sigma).get(name, (None, None))
-			if name != 'residual_shear_stress': result.add(name, unit, value, expected, source)
-		result.curve(displacement_mm=x, stress_MPa=y)
-		result.costs.update(steps=O.iter, polyhedra=len(made.unit), bonds=len(made.pairs), contacts=O.interactions.countReal(), lost=made.lost)
-results.write()
+with Session(p) as session:
+	for seed in p.seedList:
+		with session.run(seed) as result:
+			with result.stepping():
+				made, displacement, stress = run(seed)
+			x, y = displacement * 1e3, stress / 1e6
+			for name, (value, unit) in curves.measure(p.experiment, x, y).items():
+				if name != 'residual_shear_stress': result.add(name, unit, value, *expected(p.experiment, p.sigma).get(name, (None, None)))
+			result.curve(displacement_mm=x, stress_MPa=y)
+			result.costs.update(steps=O.iter, polyhedra=len(made.unit), bonds=len(made.pairs), contacts=O.interactions.countReal(), lost=made.lost)
+	session.write()
 scenario.waitIfBatch()

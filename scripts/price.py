@@ -13,6 +13,7 @@ line: those in a feature's own files, or on lines elsewhere that speak of it, ar
 """
 import json
 import re
+import sys
 import time
 from math import radians
 from pathlib import Path
@@ -22,15 +23,20 @@ import numpy as np
 import yadeblocks
 from yade import *
 from yadeblocks import scenario
-from yadeblocks.instructions import Feature, Marks, readProfiles, sourceLines
+from yadeblocks.checkpoint import sceneModel
+from yadeblocks.engines import addBehindForces, contactEngines, engineList, find
+from yadeblocks.recording import Recorder, runner
 from yadeblocks.specimen import Gauge, nodesWhere, rectangle
+
+house = Path(yadeblocks.__file__).resolve().parents[2] # __file__ is YADE itself
+sys.path.insert(0, str(house / 'scripts'))
+from laboratory.instructions import Feature, Marks, readProfiles, sourceLines
 
 p = scenario.parameters({'part': '', 'scene': 'tension', 'quick': True}, {
 	'part': scenario.Rule(lambda part: part in ('states', 'times', 'counts', 'threads', 'table'), 'is set by scripts/price.sh, which starts this script'),
 	'scene': ('tension', 'compression', 'crushed')
 })
 folder = Path('out/price')
-house = Path(yadeblocks.__file__).resolve().parents[2] # __file__ is YADE itself
 window = 100 if p.quick else 400 # steps
 repetitions = 15 if p.quick else 45 # of every timed window
 writeEvery, lookEvery, recordEvery = 1000, 100, 50 # steps between ParaView files, looks at the stability, gauge readings
@@ -45,24 +51,16 @@ unitJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), frictionAngleRe
 
 def engines(unitToUnit, mortarToOthers, alpha):
 	"""The bare time step: no feature but large displacements and local damping."""
-	return [
-		InteractionLoop([Ig2_Block_Block_BlockGeom()], [
-			Ip2_BlockMat_BlockMat_JointPhys(
-				joints=[
-					JointMat(material1='unit', material2='unit', **unitToUnit),
-					JointMat(material1='mortar', material2='mortar', **mortarToOthers),
-					JointMat(material1='unit', material2='mortar', **mortarToOthers)
-				]
-			)
-		], [Law2_BlockGeom_JointPhys_MohrCoulomb()]),
-		BlockTimeStepper(),
-		BlockForces(),
-		BlockIntegrator(alpha=alpha, watchPeriod=0)
+	joints = [
+		JointMat(material1='unit', material2='unit', **unitToUnit),
+		JointMat(material1='mortar', material2='mortar', **mortarToOthers),
+		JointMat(material1='unit', material2='mortar', **mortarToOthers)
 	]
+	return engineList(joints, alpha=alpha, watchPeriod=0)
 
 
 def addGeneralContact():
-	O.engines = [BlockContacts(), InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0)] + O.engines
+	O.engines = contactEngines() + O.engines
 
 
 def tension():
@@ -138,15 +136,6 @@ def save(name, model):
 # ---- the features
 
 
-def engine(kind):
-	return next(e for e in O.engines if type(e).__name__ == kind)
-
-
-def addAfterForces(new):
-	at = [type(e).__name__ for e in O.engines].index('BlockForces') + 1
-	O.engines = O.engines[:at] + [new] + O.engines[at:]
-
-
 def setJoints(**values):
 	for interaction in O.interactions:
 		for name, value in values.items():
@@ -155,17 +144,15 @@ def setJoints(**values):
 
 def addGauge(model):
 	nodes = np.arange(model.nodeCount)
-	gauge, readings = Gauge(model, nodes[:40], nodes[-40:]), []
-	globals()['readGauge'] = lambda: readings.append((gauge(), model.groupForce(model.groups[-1])))
-	O.engines = O.engines + [PyRunner(command='readGauge()', iterPeriod=recordEvery)]
+	read = Recorder(opening=Gauge(model, nodes[:40], nodes[-40:]), force=lambda: model.groupForce(model.groups[-1]))
+	O.engines = O.engines + [read.engine(recordEvery)]
 
 
 def addExport(model):
 	from yadeblocks.export import BlocksExport
 	export = BlocksExport(folder / 'vtk')
 	export.write(model, O.time) # imports what it needs
-	globals()['writeExport'] = lambda: export.write(model, O.time)
-	O.engines = O.engines + [PyRunner(command='writeExport()', iterPeriod=window)]
+	O.engines = O.engines + [runner('export', lambda: export.write(model, O.time), window)]
 
 
 class Row:
@@ -180,16 +167,15 @@ rows = [
 	Row('dilation', lambda model: setJoints(frictionAngleResidual=radians(4), dilationAngle=radians(4))), # it may not exceed it
 	Row('residual friction', lambda model: setJoints(frictionAngleResidual=radians(30))),
 	Row('gravity (dead loads)', lambda model: model.gravity((0, -9.81))),
-	Row('adaptive damping instead of local', lambda model: setattr(engine('BlockIntegrator'), 'damping', 'adaptive')),
-	Row('no damping instead of local', lambda model: setattr(engine('BlockIntegrator'), 'damping', 'none')),
-	Row('stability watch, every %d steps' % lookEvery, lambda model: setattr(engine('BlockIntegrator'), 'watchPeriod', lookEvery)),
+	Row('adaptive damping instead of local', lambda model: setattr(find('BlockIntegrator'), 'damping', 'adaptive')),
+	Row('no damping instead of local', lambda model: setattr(find('BlockIntegrator'), 'damping', 'none')),
+	Row('stability watch, every %d steps' % lookEvery, lambda model: setattr(find('BlockIntegrator'), 'watchPeriod', lookEvery)),
 	Row('energy accounts (O.trackEnergy)', lambda model: setattr(O, 'trackEnergy', True)),
-	Row('crack recorder, every step', lambda model: addAfterForces(BlockCrackRecorder())),
+	Row('crack recorder, every step', lambda model: addBehindForces(BlockCrackRecorder())),
 	Row('gauge in a PyRunner, every %d steps' % recordEvery, addGauge),
 	Row('ParaView files, every %d steps' % writeEvery, addExport, window / writeEvery)
 ]
-if 'BlockServo' in globals():
-	rows.append(Row('servo', lambda model: addAfterForces(BlockServo(groups=[model.groups[-1]], floor=1))))
+rows.append(Row('servo', lambda model: addBehindForces(BlockServo(groups=[model.groups[-1]], floor=1))))
 if p.scene == 'crushed': rows = [row for row in rows if 'general contact' not in row.name]
 
 features = { # where their code is
@@ -210,7 +196,7 @@ features = { # where their code is
 def start(switch=None):
 	"""The scene's state, with one feature more; a few steps behind the switch, which may change masses."""
 	O.load(str(folder / (p.scene + '.yade')))
-	model = next(b.shape.model for b in O.bodies if isinstance(b.shape, Block))
+	model = sceneModel()
 	if switch: switch(model)
 	O.run(recordEvery + 1, True)
 	return model

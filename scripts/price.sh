@@ -4,14 +4,7 @@
 # the same machine code; some minutes the first time).
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/setup.sh
-if [ "$(dpkg-query -W -f '${db:Status-Status}' valgrind 2>/dev/null)" != installed ]; then
-	root=""
-	[ "$(id -u)" = 0 ] || root="sudo -n"
-	export DEBIAN_FRONTEND=noninteractive
-	$root apt-get update -q
-	$root apt-get install -q -y --no-install-recommends valgrind
-fi
+scripts/setup.sh valgrind
 
 folder=out/price
 mkdir -p build/price "$folder"
@@ -32,7 +25,8 @@ interpreter="$(head -1 "$yade" | sed 's/^#! *//')"
 yade -n -x -j1 scripts/price.py part=states "$@"
 for scene in tension compression crushed; do
 	yade -n -x -j1 scripts/price.py part=times scene=$scene "$@"
-	OMP_NUM_THREADS=1 valgrind -q --tool=callgrind --instr-atstart=no --compress-strings=no --compress-pos=no --callgrind-out-file="$folder/$scene.callgrind" \
+	OMP_NUM_THREADS=1 valgrind -q --tool=callgrind --instr-atstart=no --compress-strings=no --compress-pos=no \
+		--callgrind-out-file="$folder/$scene.callgrind" \
 		"$interpreter" "$yade" -n -x -j1 scripts/price.py part=counts scene=$scene "$@"
 done
 [ "$(nproc)" = 1 ] || for scene in tension compression; do yade -n -x -j2 scripts/price.py part=threads scene=$scene "$@"; done

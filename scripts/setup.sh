@@ -1,27 +1,26 @@
 #!/bin/bash
-# Makes everything ready to run: Debian packages (if any is missing), configuration, build in build/. May be repeated at any time.
+# Makes everything ready to run: scripts/setup.sh [--tests] [PACKAGE ...]. Installs the Debian packages that the plugin and its scenarios need, and those
+# that are named, for commands that need more, if any is missing; builds the plugin in build/, with --tests the tests as well. May be repeated at any time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 packages="yade libyade python3-yade libeigen3-dev libcgal-dev libboost-dev libboost-python-dev libboost-numpy-dev libboost-serialization-dev
-	libgmp-dev libmpfr-dev python3-dev python3-numpy python3-scipy python3-pandas python3-matplotlib python3-pytest python3-meshio
-	libgtest-dev cmake g++ ninja-build binutils"
-
-missing=""
-for package in $packages; do
-	[ "$(dpkg-query -W -f '${db:Status-Status}' $package 2>/dev/null)" = installed ] || missing+=" $package"
-done
-if [ -n "$missing" ]; then
-	echo "installing:$missing"
-	root=""
-	[ "$(id -u)" = 0 ] || root="sudo -n"
-	export DEBIAN_FRONTEND=noninteractive
-	$root apt-get update -q
-	$root apt-get install -q -y --no-install-recommends $missing
+	libgmp-dev libmpfr-dev python3-dev python3-numpy python3-pandas python3-matplotlib python3-meshio cmake g++ ninja-build binutils"
+tests=OFF
+if [ "${1:-}" = --tests ]; then
+	tests=ON
+	packages+=" python3-pytest libgtest-dev python3-scipy"
+	shift
 fi
+scripts/install.sh $packages "$@"
 
 mkdir -p build
 exec 9> build/.setup-lock
 flock 9 # two runs at once must not build at once
-[ -f build/build.ninja ] || [ -f build/Makefile ] || cmake -S . -B build -G Ninja
-cmake --build build -j "$(nproc)"
+known="$(sed -n 's/^BUILD_TESTING:BOOL=//p' build/CMakeCache.txt 2>/dev/null || true)"
+if [ ! -f build/build.ninja ] && [ ! -f build/Makefile ]; then cmake -S . -B build -G Ninja -DBUILD_TESTING=$tests
+elif [ $tests = ON ] && [ "$known" != ON ]; then cmake -S . -B build -DBUILD_TESTING=ON
+fi
+if [ $tests = ON ]; then cmake --build build -j "$(nproc)"
+else cmake --build build -j "$(nproc)" --target yadeblocks
+fi

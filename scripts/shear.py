@@ -17,12 +17,15 @@ from math import radians
 
 import numpy as np
 
-import yadeblocks
+import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import loading, pictures, scenario
-from yadeblocks.export import BlocksExport
+from yadeblocks import curves, experiments, loading, pictures, scenario
+from yadeblocks.engines import engineList
+from yadeblocks.export import State, writeStates
 from yadeblocks.progress import Progress, loadingLine
-from yadeblocks.results import Cracks, Results, engineCosts
+from yadeblocks.recording import Recorder
+from yadeblocks.results import Cracks, engineCosts
+from yadeblocks.session import Session
 from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -52,7 +55,7 @@ p = scenario.parameters({
 })
 joint = dict(kn=p.kn, ks=p.ks, frictionAngle=radians(p.friction), frictionAngleResidual=radians(p.residualFriction), cohesion=p.cohesion, tension=p.tension)
 area, low, high = length * thickness, brickHeight, brickHeight + mortarHeight
-peakExpected, residualExpected = 0.87 + 1.01 * p.sigma / 1e6, 0.73 * p.sigma / 1e6
+peakExpected, residualExpected = experiments.peakShearStress(p.sigma), experiments.residualShearStress(p.sigma)
 
 
 def build(seed, dt):
@@ -74,89 +77,87 @@ def build(seed, dt):
 	return model
 
 
-def shear(seed, steps, label):
-	"""Presses, then shears over the whole stroke. The model; the columns displacement [m], stress [Pa], uplift [m], broken
-	contact points, unbalanced ratio; the cracks."""
+def shear(stage, seed, steps):
+	"""Presses, then shears over the whole stroke. The model; the recorder of displacement [m], stress [Pa], uplift [m], broken contact points and
+	unbalanced ratio; the cracks."""
 	dt = p.stroke / velocity / steps
-	model = build(seed, dt)
+	model = stage.model or build(seed, dt)
 	below, above = nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit')
-	slip, uplift = Gauge(model, below, above, 'x'), Gauge(model, below, above, 'y')
-	floor = 1e-3 * max(p.sigma, joint['tension']) * area
-	cracks, history = Cracks(model), []
-
-	def record():
-		history.append((slip(), model.groupForce('shear') / area, uplift(), cracks.look(), model.unbalancedRatio(floor=floor)))
-		stress, broken = history[-1][1], history[-1][3]
-		if approach: approach(stress, broken)
-		stop(model.groupTravelled('shear'), stress, broken)
-		progress(int(steps * model.groupTravelled('shear') / p.stroke))
-
-	withinBricks = [JointMat(material1='unit', material2='unit', **brickJoint)] * (p.units == 'voronoi')
-	O.dt = dt
-	O.engines = [
-		BlockContacts(),                                           # broken joints may slide on, part and meet again
-		InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0),   # woken where something moved far enough
-		InteractionLoop([Ig2_Block_Block_BlockGeom()],            # opening and slip
-		[Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
-		JointMat(material1='mortar', material2='mortar', **joint),
-		JointMat(material1='unit', material2='mortar', **joint)] + withinBricks)],
-		[Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
-		BlockTimeStepper(safety=p.safety),                         # scaled masses
-		BlockForces(),                                             # zones and joints, gathered node by node
-		BlockIntegrator(damping=p.damping, alpha=p.alpha)]         # motion
-	if p.servo: O.engines = O.engines[:-1] + [BlockServo(groups=['shear'], floor=floor)] + O.engines[-1:] # as slow as the blocks want it
-	globals()['record'] = record
-	with Progress(steps, lambda: loadingLine(history[-1][0], history[-1][1], model), label=label) as progress:
-		O.run(1, True)
-		if not p.jump: loading.settle(model, floor=floor)
-		model.setTarget('shear', velocity, rampTime=0 if p.jump else pressSteps * dt)
-		approach = None if p.servo else loading.Approach(model, 'shear', p.approach) # one of them sets the speed
-		stop = loading.Stop(displacement=p.stroke)
-		record()
-		if p.jump:
-			model.elasticJump()
+	floor, cracks = 1e-3 * max(p.sigma, joint['tension']) * area, Cracks(model)
+	record = Recorder(
+		displacement=Gauge(model, below, above, 'x'), stress=lambda: model.groupForce('shear') / area, uplift=Gauge(model, below, above, 'y'),
+		broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=floor)
+	)
+	if not stage.model: press(model, dt, floor)
+	approach = None if p.servo else loading.Approach(model, 'shear', p.approach) # one of them sets the speed
+	stop = loading.Stop(displacement=p.stroke)
+	with Progress(steps, lambda: loadingLine(record.last.displacement, record.last.stress, model), label=stage.label) as progress:
+		if approach: record.after(lambda row: approach(row.stress, row.broken))
+		record.after(lambda row: stop(model.groupTravelled('shear'), row.stress, row.broken))
+		record.after(lambda row: progress(int(steps * model.groupTravelled('shear') / p.stroke)))
+		stage.keep(record=record, cracks=cracks, approach=approach, stop=stop)
+		if not stage.model:
 			record()
-		O.engines += [PyRunner(command='record()', iterPeriod=max(1, min(50, steps // 400)))]
-		O.run()
-		O.wait()
-	return model, np.array(history).T, cracks
+			if p.jump:
+				model.elasticJump()
+				record()
+			O.engines += [record.engine(max(1, min(50, steps // 400)))]
+		stage.run()
+	return model, record, cracks
+
+
+def press(model, dt, floor):
+	"""The engines, the precompression, and the top edge set in motion."""
+	joints = [JointMat(material1=a, material2='mortar', **joint) for a in ('mortar', 'unit')]
+	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **brickJoint))
+	servo = dict(groups=['shear'], floor=floor) if p.servo else None
+	O.dt = dt
+	O.engines = engineList( # broken joints may slide on, part and meet again
+		joints, contact=True, stepper=dict(safety=p.safety), servo=servo, damping=p.damping, alpha=p.alpha
+	)
+	O.run(1, True)
+	if not p.jump: loading.settle(model, floor=floor)
+	model.setTarget('shear', velocity, rampTime=0 if p.jump else pressSteps * dt)
 
 
 # ---- running
 
-results = Results(p)
 O.timingEnabled = True
-for seed in p.seedList:
-	with results.run(seed) as run:
-		with run.stepping():
-			model, (displacement, stress, uplift, broken, unbalanced), cracks = shear(seed, p.steps, 'seed %d' % seed)
-		peak = stress.argmax()
-		run.add('peak_shear_stress', 'MPa', stress[peak] / 1e6, peakExpected, 'Van der Pluijm 1993: 0.87 + 1.01 sigma')
-		run.add(
-			'residual_shear_stress', 'MPa', stress[displacement > 0.75 * displacement[-1]].mean() / 1e6, residualExpected or None,
-			'Van der Pluijm 1993: 0.73 sigma'
-		)
-		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
-		run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
-		run.add('first_crack_place', 'mm', cracks.first[0][0] * 1e3) # from the left end
-		run.add('cracks_at_peak', '1', broken[peak])
-		run.add('crack_share_unit-mortar', '1', cracks.share('unit-mortar'))
-		run.add('uplift', 'mm', uplift[-1] * 1e3)
-		run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, uplift_mm=1e3 * uplift, broken=broken)
-		run.model(model, steps=O.iter, **engineCosts(model, O.iter))
-		run.quality(unbalanced_ratio_max=unbalanced[len(unbalanced) // 10:].max())
-	if seed == p.seed:
-		if p.vtk: BlocksExport(p.folder).write(model, O.time)
-		pictures.drawCracks(p.folder / 'cracks.png', model, title='Couplet in shear, precompression %g N/mm², seed %d' % (p.sigma / 1e6, seed))
-	if p.halfRate:
-		slow = shear(seed, 2 * p.steps, 'seed %d, half rate' % seed)[1][1].max()
-		run.quality(half_rate_change=slow / stress[peak] - 1)
-
-results.write()
-pictures.drawCurve(
-	p.folder / 'curve.png', results.curves, 'displacement_mm', 'stress_MPa', labels=('slip across the mortar layer [mm]', 'shear stress [N/mm²]'),
-	title='Couplet in shear, precompression %g N/mm²' % (p.sigma / 1e6),
-	references=[pictures.Reference('peak, Van der Pluijm 1993', peakExpected),
-			pictures.Reference('residual, Van der Pluijm 1993', residualExpected)]
-)
+with Session(p) as session:
+	for seed in p.seedList:
+		if session.wants(seed):
+			with session.run(seed) as run:
+				stage = session.stage('seed %d' % seed)
+				with run.stepping():
+					model, record, cracks = shear(stage, seed, p.steps)
+				displacement, stress, uplift, broken = (record[name] for name in ('displacement', 'stress', 'uplift', 'broken'))
+				strength, peak = curves.peak(displacement, stress)
+				run.add('peak_shear_stress', 'MPa', strength / 1e6, *peakExpected)
+				run.add('residual_shear_stress', 'MPa', curves.residual(displacement, stress) / 1e6, *residualExpected)
+				run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
+				run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
+				run.add('first_crack_place', 'mm', cracks.first[0][0] * 1e3) # from the left end
+				run.add('cracks_at_peak', '1', broken[peak])
+				run.add('crack_share_unit-mortar', '1', cracks.share('unit-mortar'))
+				run.add('uplift', 'mm', uplift[-1] * 1e3)
+				run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, uplift_mm=1e3 * uplift, broken=broken)
+				run.model(model, steps=O.iter, **engineCosts(model, O.iter))
+				run.quality(unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max())
+			if seed == p.seed:
+				title = 'Couplet in shear, precompression %g N/mm², seed %d' % (p.sigma / 1e6, seed)
+				session.picture('cracks.png', pictures.drawCracks, model, title=title)
+				if p.vtk: session.later(writeStates, p.folder, State(model, O.time))
+		if p.halfRate and session.wants(seed, 'half_rate_change'):
+			slow = shear(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]
+			strength = curves.peak(slow['displacement'], slow['stress'])[0] / 1e6
+			session.quality(seed, half_rate_change=strength / session.measured(seed, 'peak_shear_stress') - 1)
+	session.write()
+	session.picture(
+		'curve.png', pictures.drawCurve, session.results.curves, 'displacement_mm', 'stress_MPa',
+		labels=('slip across the mortar layer [mm]', 'shear stress [N/mm²]'), title='Couplet in shear, precompression %g N/mm²' % (p.sigma / 1e6),
+		references=[
+			pictures.Reference(name + ', Van der Pluijm 1993', value or 0)
+			for name, value in (('peak', peakExpected[0]), ('residual', residualExpected[0]))
+		]
+	)
 scenario.waitIfBatch()

@@ -16,18 +16,21 @@ holds those that scripts/benchmark.sh found (mode=calibrate), with the number of
 steps is, as in our scenarios, the number of steps for the whole stroke; the velocity follows from the stable time step. CohFrict in shear
 is calibrated for steps=32000: in the usual 8000 it is about twice as strong.
 """
+import json
 import sys
 from math import radians
 from pathlib import Path
 
 import numpy as np
 
-import yadeblocks # for its Python side only: no block here
+import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yade import log, utils
-from yadeblocks import calibration, curves, loading, packing, scenario
+from yadeblocks import curves, loading, packing, running, scenario
+from yadeblocks.experiments import expected
 from yadeblocks.progress import Progress
-from yadeblocks.results import Results
+from yadeblocks.recording import Recorder, runner
+from yadeblocks.session import Session
 
 # ---- specimens (SI), as in the scenarios of the same name
 
@@ -56,7 +59,7 @@ p = scenario.parameters({
 specimen = experiments[p.experiment]
 p.radius, p.steps = p.radius or specimen['radius'], p.steps or specimen['steps']
 p.unitRadius = p.unitRadius or p.radius * (specimen['coarser'] if p.model != 'lourenco' else 1) # bricks that stay elastic need fewer spheres
-calibrated = calibration.calibratedParameters(Path(sys.argv[0]).parent / 'calibrated.json', p.model, p.experiment)
+calibrated = json.loads((Path(sys.argv[0]).parent / 'calibrated.json').read_text()).get(f'{p.model} {p.experiment}', {}).get('parameters', {})
 for key in micro: # 0: of the calibration
 	if not getattr(p, key): setattr(p, key, calibrated.get(key, 0.0))
 
@@ -120,7 +123,8 @@ def bond():
 		factor = p.unitStrength if labels == {'unit'} else 1
 		if p.model == 'cohfrict': # knows no initial distance; without this, bonds across a gap would break at once
 			smaller = min(interaction.geom.refR1, interaction.geom.refR2)
-			phys.unp, phys.normalAdhesion, phys.shearAdhesion = interaction.geom.penetrationDepth, factor * p.tension * smaller**2, factor * p.cohesion * smaller**2
+			phys.unp = interaction.geom.penetrationDepth
+			phys.normalAdhesion, phys.shearAdhesion = factor * p.tension * smaller**2, factor * p.cohesion * smaller**2
 			phys.shearForce = (0, 0, 0)
 		if p.model == 'cpm' and len(labels) == 2: # it would take means
 			phys.undamagedCohesion, phys.epsCrackOnset = p.cohesion, p.tension / phys.E
@@ -188,7 +192,8 @@ class Specimen:
 
 
 def run(seed):
-	"""Loads until the stress has fallen to half its peak (shear: over the whole stroke). The specimen and the columns: displacement [m] (compression: strain), stress [Pa]."""
+	"""Loads until the stress has fallen to half its peak (shear: over the whole stroke). The specimen; displacement [m] (compression: strain);
+	stress [Pa]."""
 	made = Specimen(seed)
 	box, geometry, properties, law = functors()
 	dt = 1e-6 # of scaled masses, as in our scenarios: only displacement per step counts
@@ -213,7 +218,7 @@ def run(seed):
 	hold(made)
 	stepper.dead = False
 	newton.densityScaling = True # reaches it only while the stepper is in O.engines, and says so
-	history, start = [], O.iter
+	start = O.iter
 	approach = loading.Approach(made, 'top', p.approach if press else 1)
 	travelled = lambda: abs(np.mean([O.bodies[i].state.displ()[axis] for i in made.top]))
 
@@ -227,31 +232,28 @@ def run(seed):
 			now[axis] = -speed if p.experiment == 'compression' else speed
 			O.bodies[i].state.vel = now
 
-	def record():
-		if p.experiment == 'compression': moved = -np.mean([O.bodies[i].state.displ()[1] for i in made.top]) / height
-		else: moved = made.movement(axis)
-		stress = made.force(axis) / area * (1 if p.experiment == 'compression' else -1)
-		history.append((moved, stress))
+	def moved():
+		if p.experiment == 'compression': return -np.mean([O.bodies[i].state.displ()[1] for i in made.top]) / height
+		return made.movement(axis)
+
+	def react(row):
 		loaded = travelled() > 0.01 * specimen['stroke'] # what comes before is noise
-		approach(stress, loaded)
-		stop(travelled(), stress, loaded)
+		approach(row.stress, loaded)
+		stop(travelled(), row.stress, loaded)
 		progress(travelled() / specimen['stroke'] * p.steps)
 
-	globals().update(load=load, record=record)
-	O.engines += [
-		PyRunner(command='load()', iterPeriod=max(1, p.steps // 1000)),
-		PyRunner(command='record()', iterPeriod=max(1, p.steps // (1600 if p.experiment == 'tension' else 400)))
-	]
+	record = Recorder(moved=moved, stress=lambda: made.force(axis) / area * (1 if p.experiment == 'compression' else -1)).after(react)
+	O.engines += [runner('load', load, max(1, p.steps // 1000)), record.engine(max(1, p.steps // (1600 if p.experiment == 'tension' else 400)))]
 	load()
 	stop = loading.Stop(drop=None if press else 0.5, displacement=specimen['stroke'])
-	with Progress(p.steps, lambda: 'stress %.3f MPa' % (history[-1][1] / 1e6), label='seed %d' % seed) as progress:
-		O.run()
-		O.wait()
-	return made, np.array(history).T
+	with Progress(p.steps, lambda: 'stress %.3f MPa' % (record.last.stress / 1e6), label='seed %d' % seed) as progress:
+		running.run()
+	return made, record['moved'], record['stress']
 
 
 def hold(made):
-	"""What the machine holds: tension and shear grip the rows, compression lets them slide sideways; in shear the top row is a stiff platen that may rise."""
+	"""What the machine holds: tension and shear grip the rows, compression lets them slide sideways; in shear the top row is a stiff platen that
+	may rise."""
 	for sphere in O.bodies:
 		sphere.state.blockedDOFs = 'zXY'
 	for row in made.bottom + made.top:
@@ -265,18 +267,17 @@ def hold(made):
 
 missing = [key for key in ('unitYoung', 'mortarYoung', 'poisson', 'unitStrength', 'tension', 'cohesion') if not getattr(p, key)]
 if missing: raise SystemExit('spheres: %s is not calibrated for %s: give %s' % (p.model, p.experiment, ' '.join(missing)))
-results = Results(p)
 log.setLevel('NewtonIntegrator', log.ERROR)
-for seed in p.seedList:
-	with results.run(seed) as result:
-		with result.stepping():
-			made, (displacement, stress) = run(seed)
-		x, y = displacement * 1e3, stress / 1e6
-		for name, (value, unit) in curves.measure(p.experiment, x, y).items():
-			expected, source = curves.expectations(p.experiment, p.sigma).get(name, (None, None))
-			result.add(name, unit, value, expected, source)
-		intact = sum(1 for i in O.interactions if i.isReal)
-		result.curve(**{'strain_permille' if p.experiment == 'compression' else 'displacement_mm': x, 'stress_MPa': y})
-		result.costs.update(steps=O.iter, spheres=len(made.radii), bonds=made.bonds, contacts=intact)
-results.write()
+with Session(p) as session:
+	for seed in p.seedList:
+		with session.run(seed) as result:
+			with result.stepping():
+				made, displacement, stress = run(seed)
+			x, y = displacement * 1e3, stress / 1e6
+			for name, (value, unit) in curves.measure(p.experiment, x, y).items():
+				result.add(name, unit, value, *expected(p.experiment, p.sigma).get(name, (None, None)))
+			intact = sum(1 for i in O.interactions if i.isReal)
+			result.curve(**{'strain_permille' if p.experiment == 'compression' else 'displacement_mm': x, 'stress_MPa': y})
+			result.costs.update(steps=O.iter, spheres=len(made.radii), bonds=made.bonds, contacts=intact)
+	session.write()
 scenario.waitIfBatch()

@@ -1,5 +1,24 @@
 #!/bin/bash
-# Stability on stiff and extreme cases: scripts/stability.sh [case=NAME] (case=list names them). Leaves out/stability/table.md and result.json.
-# Ends with 1 if a case failed.
+# Stability on stiff and extreme cases (tests/stability): scripts/stability.sh [case=NAME|quick|list] [tag=TEXT] [threads=N], about a minute.
+# Leaves out/stability/table.md and result.json; ends with 1 if a case failed.
 set -euo pipefail
-exec "$(dirname "$0")/run.sh" stability "$@"
+cd "$(dirname "$0")/.."
+
+case=all tag="" threads=1
+for argument in "$@"; do
+	case "$argument" in
+		case=*) case="${argument#case=}" ;;
+		tag=*) tag="-${argument#tag=}" ;;
+		threads=*) threads="${argument#threads=}" ;;
+		*) echo "stability has no parameter $argument; known: case tag threads" >&2; exit 2 ;;
+	esac
+done
+
+log="$(mktemp)"
+trap 'rm -f "$log"' EXIT
+scripts/setup.sh python3-pytest > "$log" 2>&1 || { cat "$log" >&2; exit 1; }
+
+export OMP_NUM_THREADS="$threads" OMP_WAIT_POLICY=passive PYTHONPATH="$PWD/py${PYTHONPATH:+:$PYTHONPATH}"
+[ -v HOME ] || export HOME=~ # YADE does not start without
+python="$(head -1 "$(command -v yade)" | sed 's/^#! *//')"
+"$python" tests/runInYade.py tests/stability -q --tb=short --case="$case" --report="out/stability$tag"

@@ -23,12 +23,15 @@ from math import radians
 
 import numpy as np
 
-import yadeblocks
+import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import loading, pictures, scenario
-from yadeblocks.export import BlocksExport
+from yadeblocks import curves, experiments, loading, pictures, scenario
+from yadeblocks.engines import engineList
+from yadeblocks.export import State, writeStates
 from yadeblocks.progress import Progress, loadingLine
-from yadeblocks.results import Cracks, Results, engineCosts
+from yadeblocks.recording import Recorder
+from yadeblocks.results import Cracks, engineCosts
+from yadeblocks.session import Session
 from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -42,10 +45,10 @@ brickJoint = dict(
 	kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6
 ) # with units=voronoi; Table 9, since none is given for these bricks
 cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [MPa], its source
-	'TT1': (table2, table3, 2e-3, 0.35, 'Van der Pluijm 1992'),
-	'TT2': (table3, table3, 2e-3, 0.35, 'paper, Fig. 10'),
+	'TT1': (table2, table3, 2e-3, *experiments.tensileStrength),
+	'TT2': (table3, table3, 2e-3, *experiments.tensileStrengthOfPaper[2e-3]),
 	'TT2b': (table2, table2, 2e-3, None, None),
-	'TT3': (table3, table3, 6e-3, 0.43, 'paper, Fig. 10'),
+	'TT3': (table3, table3, 6e-3, *experiments.tensileStrengthOfPaper[6e-3]),
 }
 stroke, velocity = 0.03e-3, 0.02e-3 # [m], [m/s]
 
@@ -79,90 +82,82 @@ def build(seed):
 	return model
 
 
-def pull(model, steps, progressLabel):
-	"""Loads until the stress has fallen to half the peak. Columns: displacement [m], stress [Pa], broken contact points, unbalanced ratio."""
+def pull(stage, seed, steps):
+	"""Loads until the stress has fallen to half the peak. The model; the recorder of displacement [m], stress [Pa], broken contact points and
+	unbalanced ratio; the cracks."""
+	model = stage.model or build(seed)
 	low, high = brickHeight, brickHeight + mortarHeight
 	gauge = Gauge(
 		model, below=nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), above=nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit')
 	)
-	floor, cracks, history = 1e-3 * unitJoint['tension'] * area, Cracks(model), []
+	floor, cracks = 1e-3 * unitJoint['tension'] * area, Cracks(model)
 	stop = loading.Stop(drop=0.5, displacement=2 * stroke)
+	record = Recorder(
+		displacement=gauge, stress=lambda: model.groupForce('top') / area, broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=floor)
+	)
+	with Progress(steps, lambda: loadingLine(record.last.displacement, record.last.stress, model), label=stage.label) as progress:
+		record.after(lambda row: progress(O.iter)).after(lambda row: stop(model.groupTravelled('top'), row.stress, row.broken))
+		stage.keep(record=record, cracks=cracks, stop=stop)
+		if not stage.model: begin(model, steps, floor, record)
+		stage.run()
+	return model, record, cracks
 
-	def record():
-		history.append((gauge(), model.groupForce('top') / area, cracks.look(), model.unbalancedRatio(floor=floor)))
-		progress(O.iter)
-		stop(model.groupTravelled('top'), history[-1][1], history[-1][2])
 
-	withinBricks = [JointMat(material1='unit', material2='unit', **brickJoint)] * (p.units == 'voronoi')
+def begin(model, steps, floor, record):
+	"""The engines, and the way to the first crack."""
+	joints = [JointMat(material1='mortar', material2='mortar', **mortarJoint), JointMat(material1='unit', material2='mortar', **unitJoint)]
+	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **brickJoint))
 	O.dt = duration / steps
-	O.engines = [
-		InteractionLoop([Ig2_Block_Block_BlockGeom()],            # opening and slip
-		[Ip2_BlockMat_BlockMat_JointPhys(joints=[ # joint properties
-		JointMat(material1='mortar', material2='mortar', **mortarJoint),
-		JointMat(material1='unit', material2='mortar', **unitJoint)] + withinBricks)],
-		[Law2_BlockGeom_JointPhys_MohrCoulomb()]), # joint stresses, failure
-		BlockTimeStepper(safety=p.safety),                         # scaled masses
-		BlockForces(),                                             # zones and joints, gathered node by node
-		BlockIntegrator(damping=p.damping, alpha=p.alpha)]         # motion
-	if p.servo: O.engines = O.engines[:-1] + [BlockServo(groups=['top'], floor=floor)] + O.engines[-1:] # as slow as the blocks want it
-	globals()['record'] = record
-	with Progress(steps, lambda: loadingLine(history[-1][0], history[-1][1], model), label=progressLabel) as progress:
-		O.run(1, True)
+	O.engines = engineList(
+		joints, stepper=dict(safety=p.safety), servo=dict(groups=['top'], floor=floor) if p.servo else None, damping=p.damping, alpha=p.alpha
+	)
+	O.run(1, True)
+	record()
+	if p.jump:
+		model.elasticJump()
 		record()
-		if p.jump:
-			model.elasticJump()
-			record()
-		O.engines += [PyRunner(command='record()', iterPeriod=max(1, steps // 1600))]
-		O.run()
-		O.wait()
-	return np.array(history).T, cracks
+	O.engines += [record.engine(max(1, steps // 1600))]
 
 
 def seriesStiffness():
 	"""Stiffness across the layer per area [Pa/m]."""
-	s = p.size * (1.61 if p.sizeMeaning == 'edge' else 1) # hexagon-like cells
-	modulus = mortar['young'] / (1 - mortar['poisson']**2 if p.plane == 'strain' else 1)
-	kn = unitJoint['kn']
-	return 1 / (mortarHeight / modulus + mortarHeight / (0.92 * kn * s) + 1 / kn)
+	side = p.size * (experiments.edgeToSide if p.sizeMeaning == 'edge' else 1)
+	return experiments.seriesStiffness(mortarHeight, mortar['young'], mortar['poisson'], unitJoint['kn'], side, p.plane == 'strain')
 
 
 # ---- running
 
-results = Results(p)
 O.timingEnabled = True
-for seed in p.seedList:
-	with results.run(seed) as run:
-		model = build(seed)
-		if seed == p.seed and p.vtk:
-			export = BlocksExport(p.folder)
-			export.write(model, O.time)
-		with run.stepping():
-			(displacement, stress, broken, unbalanced), cracks = pull(model, p.steps, 'seed %d' % seed)
-		peak = stress.argmax()
-		elastic = (broken == 0) & ((stress > 0.1 * stress[peak]) | p.jump) # from where a smooth start is over
+with Session(p) as session:
+	for seed in p.seedList:
+		if session.wants(seed):
+			with session.run(seed) as run:
+				stage = session.stage('seed %d' % seed)
+				with run.stepping():
+					model, record, cracks = pull(stage, seed, p.steps)
+				displacement, stress, broken = record['displacement'], record['stress'], record['broken']
+				strength, peak = curves.peak(displacement, stress)
+				elastic = (broken == 0) & ((stress > 0.1 * strength) | p.jump) # from where a smooth start is over
 
-		run.add('peak_tensile_stress', 'MPa', stress[peak] / 1e6, expectedPeak, source)
-		run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
-		run.add(
-			'joint_stiffness', 'N/mm3',
-			np.polyfit(displacement[elastic], stress[elastic], 1)[0] / 1e9,
-			seriesStiffness() / 1e9, 'series of mortar and joints'
-		)
-		run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
-		run.add('crack_share_unit-mortar', '1', cracks.share('unit-mortar'))
-		run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, broken=broken)
-		run.model(model, steps=O.iter, **engineCosts(model, O.iter))
-		run.quality(unbalanced_ratio_max=unbalanced[len(unbalanced) // 10:].max())
-	if seed == p.seed:
-		if p.vtk: export.write(model, O.time)
-		pictures.drawCracks(p.folder / 'cracks.png', model, title='Couplet in tension, %s, seed %d' % (p.case, seed))
-	if p.halfRate:
-		slow = pull(build(seed), 2 * p.steps, 'seed %d, half rate' % seed)[0][1].max()
-		run.quality(half_rate_change=slow / stress[peak] - 1)
-
-results.write()
-pictures.drawCurve(
-	p.folder / 'curve.png', results.curves, 'displacement_mm', 'stress_MPa', labels=('mean opening across the mortar layer [mm]', 'tensile stress [N/mm²]'),
-	title='Couplet in tension, %s' % p.case
-)
+				run.add('peak_tensile_stress', 'MPa', strength / 1e6, expectedPeak, source)
+				run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
+				slope = np.polyfit(displacement[elastic], stress[elastic], 1)[0]
+				run.add('joint_stiffness', 'N/mm3', slope / 1e9, seriesStiffness() / 1e9, 'series of mortar and joints')
+				run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
+				run.add('crack_share_unit-mortar', '1', cracks.share('unit-mortar'))
+				run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, broken=broken)
+				run.model(model, steps=O.iter, **engineCosts(model, O.iter))
+				run.quality(unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max())
+			if seed == p.seed:
+				session.picture('cracks.png', pictures.drawCracks, model, title='Couplet in tension, %s, seed %d' % (p.case, seed))
+				if p.vtk: session.later(writeStates, p.folder, State(model, 0, untouched=True), State(model, O.time))
+		if p.halfRate and session.wants(seed, 'half_rate_change'):
+			slow = pull(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]
+			strength = curves.peak(slow['displacement'], slow['stress'])[0] / 1e6
+			session.quality(seed, half_rate_change=strength / session.measured(seed, 'peak_tensile_stress') - 1)
+	session.write()
+	session.picture(
+		'curve.png', pictures.drawCurve, session.results.curves, 'displacement_mm', 'stress_MPa',
+		labels=('mean opening across the mortar layer [mm]', 'tensile stress [N/mm²]'), title='Couplet in tension, %s' % p.case
+	)
 scenario.waitIfBatch()

@@ -2,6 +2,6 @@
 # Builds and runs all tests; arguments go to ctest (e.g. -L kernel). Ends with ctest's summary.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/setup.sh
+scripts/setup.sh --tests
 [ -v HOME ] || export HOME=~ # YADE does not start without
 ctest --test-dir build --output-on-failure "$@"

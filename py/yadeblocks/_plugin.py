@@ -1,3 +1,4 @@
+# yade-blocks, GPL-2.0-or-later
 """Loads libyadeblocks.so into YADE and puts its classes where YADE's own classes are.
 
 Nothing to do if YADE has loaded the plugin itself, because it is installed below YADE's library folder.
@@ -6,26 +7,13 @@ environment variable YADEBLOCKS_PLUGIN.
 """
 import ctypes
 import glob
+import importlib.abc
+import importlib.util
 import os
 import re
 import sys
 
 libraryName = 'libyadeblocks.so'
-
-
-def importYade():
-	"""YADE as a Python module, also where it was not started by the program `yade`."""
-	try:
-		import yade
-	except ModuleNotFoundError as notFound:
-		if notFound.name != 'yade': raise
-		prefix = os.environ.get('YADE_PREFIX', '/usr')
-		folders = glob.glob(prefix + '/lib/*/yade-double/py')
-		if not folders: raise ImportError('yadeblocks needs YADE: there is no %s/lib/*/yade-double/py' % prefix)
-		os.environ.setdefault('OMP_NUM_THREADS', '1') # as the program `yade` does
-		sys.path.append(folders[0])
-		import yade
-	return yade
 
 
 def loadedFrom(name):
@@ -71,14 +59,48 @@ def publish(yade):
 	return classes
 
 
-yade = importYade()
-import yade.system, yade.wrapper, yade.config
+def ensure(yade):
+	"""Loads the plugin into this YADE, if YADE has not done so itself."""
+	import yade.config
+	import yade.system
+	import yade.wrapper
+	path, built = loadedFrom(libraryName), builtPlugin()
+	if path is None:
+		if built is None: raise ImportError('%s is not built: run scripts/setup.sh, or install the package yade-blocks' % libraryName)
+		if not os.path.exists(built): raise ImportError('there is no %s (from YADEBLOCKS_PLUGIN)' % built)
+		load(built, yade)
+	elif built and os.path.realpath(built) != os.path.realpath(path):
+		print('yadeblocks: YADE has loaded %s already, %s is not used' % (path, built), file=sys.stderr)
+	publish(yade)
 
-path, built = loadedFrom(libraryName), builtPlugin()
-if path is None:
-	if built is None: raise ImportError('%s is not built: run scripts/setup.sh, or install the package yade-blocks' % libraryName)
-	if not os.path.exists(built): raise ImportError('there is no %s (from YADEBLOCKS_PLUGIN)' % built)
-	load(built, yade)
-elif built and os.path.realpath(built) != os.path.realpath(path):
-	print('yadeblocks: YADE has loaded %s already, %s is not used' % (path, built), file=sys.stderr)
-publish(yade)
+
+class _Follower(importlib.abc.MetaPathFinder):
+	"""Waits for the import of YADE in a Python that was not started by the program `yade`; the plugin is loaded behind it."""
+	def find_spec(self, name, path=None, target=None):
+		if name != 'yade': return None
+		sys.meta_path.remove(self)
+		spec = importlib.util.find_spec('yade')
+		if spec is None or spec.loader is None: spec = self._installed() # a folder of that name has no loader
+		execute = spec.loader.exec_module
+
+		def executeAndLoad(module):
+			execute(module)
+			ensure(module)
+
+		spec.loader.exec_module = executeAndLoad
+		return spec
+
+	def _installed(self):
+		"""YADE where its package puts it, which is not where Python looks."""
+		prefix = os.environ.get('YADE_PREFIX', '/usr')
+		folders = glob.glob(prefix + '/lib/*/yade-double/py')
+		if not folders: raise ImportError('yadeblocks needs YADE: there is no %s/lib/*/yade-double/py' % prefix)
+		os.environ.setdefault('OMP_NUM_THREADS', '1') # as the program `yade` does
+		sys.path.append(folders[0])
+		return importlib.util.find_spec('yade')
+
+
+def follow():
+	"""Loads the plugin now if YADE is running, else behind YADE."""
+	if 'yade' in sys.modules: ensure(sys.modules['yade'])
+	else: sys.meta_path.insert(0, _Follower())

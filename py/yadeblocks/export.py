@@ -4,11 +4,12 @@
 	export = BlocksExport(p.folder)
 	export.write(model, O.time)          # as often as wanted; blocks.pvd and joints.pvd can be opened after every call
 """
-import os
 from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
+
+from . import files
 
 
 def pairName(model, first, second):
@@ -52,6 +53,15 @@ def principalStresses(stress):
 	return np.column_stack([mean + radius, mean - radius])
 
 
+class State:
+	"""What BlocksExport writes of a model at a time [s]: copied, so that it can be written later, whatever has become of the model.
+
+	untouched: as the model was before anything moved or broke."""
+	def __init__(self, model, time, untouched=False):
+		self.time = float(time)
+		self.grids = {"blocks": _zones(model, untouched), "joints": _joints(model, untouched)}
+
+
 class BlocksExport:
 	"""Two collections for ParaView in `folder`, begun anew: blocks.pvd (zones; rigid blocks as triangles between their corners) and joints.pvd
 	(a line for every contact point, its half of the segment), each with a compressed .vtu file per step.
@@ -69,40 +79,51 @@ class BlocksExport:
 
 	def write(self, model, time):
 		"""Adds the model as it is now, at this time [s]."""
-		step = len(self.times)
-		_writeZones(self.folder / f"blocks_{step:04}.vtu", model)
-		_writeJoints(self.folder / f"joints_{step:04}.vtu", model)
-		self.times.append(float(time))
-		for name in ("blocks", "joints"):
+		self.add(State(model, time))
+
+	def add(self, state):
+		"""Adds a State."""
+		for name, grid in state.grids.items():
+			with files.replacing(self.folder / f"{name}_{len(self.times):04}.vtu") as part:
+				_writeGrid(part, *grid)
+		self.times.append(state.time)
+		for name in state.grids:
 			_writeCollection(self.folder, name, self.times)
 
 
-def _writeZones(path, model):
+def writeStates(folder, *states):
+	"""Both collections at once, of these States."""
+	export = BlocksExport(folder)
+	for state in states:
+		export.add(state)
+
+
+def _zones(model, untouched):
+	"""Arguments of _writeGrid."""
 	rigid = np.flatnonzero(np.diff(model.firstZone) == 0)
 	triangles = [np.reshape(model.zoneNodes, (-1, 3)), *map(model.cornerTriangles, rigid.tolist())]
 	blocks = np.repeat([*range(len(model.blockMaterial)), *rigid], [*np.diff(model.firstZone), *map(len, triangles[1:])]).astype(np.int32)
 	stress = np.zeros((len(blocks), 3)) # none in rigid blocks
-	stress[:len(triangles[0])] = model.zoneStress()
-	_writeGrid(
-		path, model.position, "triangle", np.concatenate(triangles),
-		{"displacement": _spatial(model.position - model.reference), "velocity": _spatial(model.velocity)}, {
-			"block": blocks, "material": np.asarray(model.blockMaterial, np.int32)[blocks], **dict(zip(("sxx", "syy", "sxy"), stress.T)),
-			**dict(zip(("s1", "s2"),
-					principalStresses(stress).T))
-		}
-	)
+	if not untouched: stress[:len(triangles[0])] = model.zoneStress()
+	there = 0.0 if untouched else 1.0
+	position = model.reference if untouched else model.position
+	displacement, velocity = _spatial(position - model.reference), _spatial(there * model.velocity)
+	cells = {"block": blocks, "material": np.asarray(model.blockMaterial, np.int32)[blocks], **dict(zip(("sxx", "syy", "sxy"), stress.T))}
+	cells.update(zip(("s1", "s2"), principalStresses(stress).T))
+	return np.array(position), "triangle", np.concatenate(triangles), {"displacement": displacement, "velocity": velocity}, cells
 
 
-def _writeJoints(path, model):
-	lines = contactLines(model, model.position)
+def _joints(model, untouched):
+	"""Arguments of _writeGrid."""
+	lines = contactLines(model, model.reference if untouched else model.position)
 	first, second = np.repeat(np.asarray(model.segmentBlocks, np.int32), 2, axis=0).T
-	_writeGrid(
-		path, lines.reshape(-1, 2), "line",
-		np.arange(2 * len(lines)).reshape(-1, 2), {}, {
-			"firstBlock": first, "secondBlock": second, "opening": model.pointOpening, "slip": model.pointSlip, "sigma": model.pointSigma,
-			"tau": model.pointTau, "status": np.asarray(model.pointStatus, np.uint8)
-		}
-	)
+	cells = {"firstBlock": first, "secondBlock": second}
+	for name in ("opening", "slip", "sigma", "tau"):
+		values = np.array(getattr(model, "point" + name.capitalize()))
+		cells[name] = np.zeros_like(values) if untouched else values
+	status = np.array(model.pointStatus, np.uint8)
+	cells["status"] = np.where(status == 3, status, 0).astype(np.uint8) if untouched else status # never bonded stays so
+	return lines.reshape(-1, 2), "line", np.arange(2 * len(lines)).reshape(-1, 2), {}, cells
 
 
 def _spatial(vectors):
@@ -114,13 +135,8 @@ def _writeGrid(path, points, kind, cells, pointData, cellData):
 	"""A compressed .vtu file of equal cells, (m, corners) point indices."""
 	from meshio import Mesh, vtu # not VTK: ParaView's Python and YADE's VTK cannot live in one process
 	plain = lambda values: np.array(values, order="C") # meshio takes bytes as they lie
-	vtu.write(
-		path,
-		Mesh(
-			_spatial(points), [(kind, plain(cells))], {name: plain(values) for name, values in pointData.items()},
-			{name: [plain(values)] for name, values in cellData.items()}
-		)
-	)
+	pointData = {name: plain(values) for name, values in pointData.items()}
+	vtu.write(path, Mesh(_spatial(points), [(kind, plain(cells))], pointData, {name: [plain(values)] for name, values in cellData.items()}))
 
 
 def _writeCollection(folder, name, times):
@@ -129,6 +145,4 @@ def _writeCollection(folder, name, times):
 	collection = ElementTree.SubElement(root, "Collection")
 	for step, time in enumerate(times):
 		ElementTree.SubElement(collection, "DataSet", timestep=repr(time), part="0", file=f"{name}_{step:04}.vtu")
-	unfinished = folder / f".{name}.pvd"
-	ElementTree.ElementTree(root).write(unfinished, encoding="utf-8", xml_declaration=True)
-	os.replace(unfinished, folder / f"{name}.pvd")
+	files.replace(folder / f"{name}.pvd", ElementTree.tostring(root, encoding="utf-8", xml_declaration=True))

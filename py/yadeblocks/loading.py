@@ -6,7 +6,7 @@
 	stop = loading.Stop(drop=0.5, displacement=3e-3)
 	O.engines += [PyRunner(command="stop(model.groupTravelled('top'), stress(), broken())", iterPeriod=100)]
 """
-import math
+from .curves import Peak
 
 
 def settle(model, ratio=1e-4, floor=0.0, period=100, maxSteps=1000000):
@@ -35,15 +35,24 @@ class Approach:
 	def __init__(self, model, group, slow, drop=0.7):
 		if not 0 < slow <= 1: raise ValueError('Approach: slow must lie in (0, 1], got %r' % slow)
 		if not 0 < drop < 1: raise ValueError('Approach: drop must lie in (0, 1), got %r' % drop)
-		self.model, self.group, self.speed, self.drop = model, group, slow, drop
-		self.peak, self.passed = -math.inf, False
+		self.model, self.group, self.speed = model, group, slow
+		self.peak = Peak(drop)
 		model.setThrottle(group, slow)
+
+	@property
+	def kept(self):
+		"""What a checkpoint keeps."""
+		return {"speed": self.speed, "peak": self.peak.kept}
+
+	@kept.setter
+	def kept(self, kept):
+		self.speed, self.peak.kept = kept["speed"], kept["peak"]
+		self.model.setThrottle(self.group, self.speed)
 
 	def __call__(self, stress, broken):
 		"""Looks at the present stress [Pa] and number of broken contact points."""
-		self.peak = max(self.peak, stress)
-		self.passed = self.passed or bool(broken) and stress < self.drop * self.peak
-		if self.passed and self.speed < 1:
+		self.peak.look(stress, broken)
+		if self.peak.passed and self.speed < 1:
 			self.speed = min(1, 1.1 * self.speed)
 			self.model.setThrottle(self.group, self.speed)
 
@@ -60,12 +69,21 @@ class Stop:
 		if displacement is not None and not displacement > 0: raise ValueError('Stop: displacement must be positive, got %r' % displacement)
 		if cracks is not None and not cracks >= 1: raise ValueError('Stop: cracks must be at least 1, got %r' % cracks)
 		self.drop, self.displacement, self.cracks = drop, displacement, cracks
-		self.peak, self.reason = -math.inf, ''
+		self.peak, self.reason = Peak(drop or 0), ''
+
+	@property
+	def kept(self):
+		"""What a checkpoint keeps."""
+		return {"peak": self.peak.kept, "reason": self.reason}
+
+	@kept.setter
+	def kept(self, kept):
+		self.peak.kept, self.reason = kept["peak"], kept["reason"]
 
 	def __call__(self, displacement, stress, broken):
 		"""Looks at the present state: displacement [m], stress [Pa], number of broken contact points."""
-		self.peak = max(self.peak, stress)
-		if self.drop is not None and broken and stress < self.drop * self.peak: self.reason = 'drop'
+		below = self.peak.look(stress, broken)
+		if self.drop is not None and below: self.reason = 'drop'
 		elif self.displacement is not None and abs(displacement) >= self.displacement: self.reason = 'displacement'
 		elif self.cracks is not None and broken >= self.cracks: self.reason = 'cracks'
 		else: return False

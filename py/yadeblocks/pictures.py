@@ -10,10 +10,10 @@ import math
 from collections import defaultdict, namedtuple
 from contextlib import contextmanager
 from itertools import cycle
-from pathlib import Path
 
 import numpy as np
 
+from . import files
 from .export import blockOutlines, contactLines, pairName
 from .results import Cracks, modes
 
@@ -91,7 +91,7 @@ def drawCracks(path, model, magnification=None, window=None, title=""):
 
 @contextmanager
 def _picture(path, width, height):
-	"""A matplotlib figure of this size [inch], saved at the end; off pyplot, which belongs to YADE's own plots."""
+	"""A matplotlib figure of this size [inch], saved at the end to a path or a binary file; off pyplot, which belongs to YADE's own plots."""
 	import matplotlib
 	from matplotlib.backends.backend_agg import FigureCanvasAgg
 	from matplotlib.figure import Figure
@@ -99,8 +99,10 @@ def _picture(path, width, height):
 		figure = Figure(figsize=(width, height))
 		FigureCanvasAgg(figure)
 		yield figure
-		Path(path).parent.mkdir(parents=True, exist_ok=True)
-		figure.savefig(path, dpi=300, bbox_inches="tight", pad_inches=0.06)
+		save = lambda place: figure.savefig(place, format="png", dpi=300, bbox_inches="tight", pad_inches=0.06)
+		if hasattr(path, "write"): return save(path)
+		with files.replacing(path) as part:
+			save(part)
 
 
 def _drawReference(axes, reference, colour, line):

@@ -24,6 +24,8 @@ from typing import Optional
 
 import numpy as np
 
+from . import files
+from .curves import hasPeak
 from .export import pairName
 
 #: Contact points by what has become of them: values of `model.pointStatus`.
@@ -45,6 +47,24 @@ class Cracks:
 		along = np.abs(b - a)
 		self.steep = (along[:, 1] > np.tan(np.pi / 3) * along[:, 0]).repeat(2)
 		self.first = (math.nan, math.nan), ""
+		self.highest, self.atPeak = -math.inf, {}
+
+	@property
+	def kept(self):
+		"""What a checkpoint keeps."""
+		return {
+			"areas": self.areas.tolist(), "bonded": self.bonded, "first": [[float(x) for x in self.first[0]], self.first[1]],
+			"highest": self.highest, "atPeak": self.atPeak
+		}
+
+	@kept.setter
+	def kept(self, kept):
+		self.areas, self.bonded, self.highest, self.atPeak = np.array(kept["areas"]), kept["bonded"], kept["highest"], kept["atPeak"]
+		self.first = tuple(kept["first"][0]), kept["first"][1]
+
+	def noteStress(self, stress):
+		"""Takes the present stress, so that `atPeak` are the `counts` of the moment at which it was highest."""
+		if stress > self.highest: self.highest, self.atPeak = float(stress), self.counts()
 
 	def _broken(self):
 		status = np.asarray(self.model.pointStatus)
@@ -109,6 +129,37 @@ class Run:
 		self.hasPeak = None # not known without a curve of stress
 		self.costs = {"threads": threads}
 		self.steppingTime = None # CPU [s]
+		self.spent = 0.0, 0.0 # CPU and wall-clock time before the run was resumed [s]
+		self._started, self._stepping = (time.process_time(), time.perf_counter()), None
+
+	@property
+	def elapsed(self):
+		"""CPU and wall-clock time of this run until now, and the CPU time of its steps [s]."""
+		cpu, wall = time.process_time(), time.perf_counter()
+		stepping = (self.steppingTime or 0) + (cpu - self._stepping if self._stepping is not None else 0)
+		return self.spent[0] + cpu - self._started[0], self.spent[1] + wall - self._started[1], stepping
+
+	def resume(self, elapsed):
+		"""Counts what an earlier process has spent on this run, as `elapsed` gave it."""
+		self.spent, self.steppingTime = tuple(elapsed[:2]), elapsed[2]
+
+	@property
+	def kept(self):
+		"""What a checkpoint keeps of a run that is done."""
+		table = None if self.table is None else {name: self.table[name].tolist() for name in self.table}
+		return {
+			"seed": self.seed, "quantities": [vars(quantity) for quantity in self.quantities.values()], "qualities": self.qualities, "table": table,
+			"costs": self.costs
+		}
+
+	@classmethod
+	def of(cls, kept):
+		"""The run that `kept` was."""
+		run = cls(kept["seed"])
+		run.quantities = {entry["name"]: Quantity(**entry) for entry in kept["quantities"]}
+		run.qualities, run.costs = kept["qualities"], kept["costs"]
+		if kept["table"] is not None: run.curve(**{name: column for name, column in kept["table"].items() if name != "seed"})
+		return run
 
 	def add(self, name, unit, measured, expected=None, source=None):
 		"""A measured number, and what it should be according to `source`, in the same unit."""
@@ -123,7 +174,7 @@ class Run:
 		import pandas
 		self.table = pandas.DataFrame(columns)
 		self.table.insert(0, "seed", self.seed)
-		self.hasPeak = None if "stress_MPa" not in self.table else _falls(self.table.stress_MPa.to_numpy(float))
+		self.hasPeak = None if "stress_MPa" not in self.table else hasPeak(self.table.stress_MPa)
 
 	def quality(self, unbalanced_ratio_max=None, half_rate_change=None, energy_error=None):
 		"""How far the run may be trusted, as fractions: the largest unbalanced ratio; the change of the main quantity at half
@@ -134,9 +185,9 @@ class Run:
 	@contextmanager
 	def stepping(self):
 		"""Around the time steps proper (may be entered several times): their CPU time gives us_per_step."""
-		start = time.process_time()
+		self._stepping = time.process_time()
 		yield
-		self.steppingTime = (self.steppingTime or 0) + time.process_time() - start
+		self.steppingTime, self._stepping = self.elapsed[2], None
 
 	def model(self, model, steps, **more):
 		"""Sizes and cracks of the model as it is now, after `steps` time steps. `more` joins the cost (ns_per_zone=...)."""
@@ -148,8 +199,9 @@ class Run:
 			for mode, count in counts.items():
 				self.add(f"cracks_{pair}_{mode}", "1", count)
 
-	def close(self, cpu, wall):
-		"""Takes the CPU and wall-clock time of the whole run [s]."""
+	def close(self):
+		"""Takes the CPU and wall-clock time of the whole run."""
+		cpu, wall, _ = self.elapsed
 		steps = self.costs.get("steps")
 		stepping = cpu if self.steppingTime is None else self.steppingTime
 		self.costs.update(
@@ -177,14 +229,14 @@ class Results:
 		self.parameters = parameters
 		self.folder = parameters.folder
 		self.runs = []
+		self.complete = False # whether all runs that were asked for are there
 
 	@contextmanager
 	def run(self, seed):
 		"""A run with this tessellation, timed from here to the end of the block; one that fails leaves nothing."""
 		run = Run(seed, getattr(self.parameters, "threads", 1))
-		cpu, wall = time.process_time(), time.perf_counter()
 		yield run
-		run.close(time.process_time() - cpu, time.perf_counter() - wall)
+		run.close()
 		self.runs.append(run)
 
 	@property
@@ -215,6 +267,7 @@ class Results:
 			"scenario": self.parameters.scenario,
 			"parameters": self.parameters.asDict(),
 			"seed": getattr(self.parameters, "seed", None),
+			"complete": self.complete,
 			"quantities": [quantity.asDict() for quantity in self.quantities],
 			"cost": {**{key: costs.get(key) for key in keys}, **costs},
 			"quality": {**{name: self._quality(name) for name in qualities}, "without_peak": self.withoutPeak},
@@ -243,12 +296,16 @@ class Results:
 		lines.insert(1, "-" * max(map(len, lines)))
 		return "\n".join([self._heading(), *lines, *self._remarks()])
 
-	def write(self):
-		"""Writes result.json and curve.csv, prints the table; returns the folder."""
-		self.folder.mkdir(parents=True, exist_ok=True)
-		(self.folder / "result.json").write_text(json.dumps(jsonable(self.asDict()), indent=1, allow_nan=False) + "\n")
+	def save(self):
+		"""Writes result.json, then curve.csv, each whole or not at all."""
+		files.replace(self.folder / "result.json", json.dumps(jsonable(self.asDict()), indent=1, allow_nan=False) + "\n")
 		if any(run.table is not None for run in self.runs):
-			self.curves.to_csv(self.folder / "curve.csv", index=False, float_format="%.7g")
+			files.replace(self.folder / "curve.csv", self.curves.to_csv(index=False, float_format="%.7g"))
+
+	def write(self):
+		"""All runs are there: writes result.json and curve.csv, prints the table; returns the folder."""
+		self.complete = True
+		self.save()
 		print(self.report())
 		return self.folder
 
@@ -270,10 +327,6 @@ class Results:
 			] * bool(rising) + ["quality: " + ", ".join(quality)] * bool(quality) + ["one run: " + ", ".join(cost)] * bool(cost) + [
 				f"see {self.folder}"
 			]
-
-
-def _falls(stress):
-	return bool(np.isfinite(stress).any() and stress[np.nanargmax(stress):].min() < 0.95 * np.nanmax(stress))
 
 
 def jsonable(value):

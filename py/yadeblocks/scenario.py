@@ -46,6 +46,8 @@ _common = {
 		"time step as a fraction of the stable one; with local damping at most 0.95/sqrt(1+alpha)"
 	),
 	"steps": _Common(40000, Rule(lambda n: n >= 1000, "must be at least 1000"), "time steps for the whole loading"),
+	"checkpoint": _Common(0.0, notNegative, "seconds between two checkpoints of a run that may be killed, of which resume=true goes on; 0: none"),
+	"resume": _Common(False, Rule(lambda r: True, "must be true or false"), "go on where a run with the same keys was killed or interrupted"),
 	"plane": _Common("strain", choice("strain", "stress"), "plane strain or plane stress"),
 }
 
@@ -83,8 +85,8 @@ class Parameters:
 		return list(range(self.seed, self.seed + self.seeds))
 
 	def asDict(self):
-		"""The keys and their values, as result.json shows them."""
-		return {key: value for key, value in vars(self).items() if key != "scenario"}
+		"""The keys and their values, as result.json shows them: all that a result may depend on, and nothing of how a run is kept from getting lost."""
+		return {key: value for key, value in vars(self).items() if key not in ("scenario", "checkpoint", "resume")}
 
 
 def parse(words, defaults, allowed=None, scenario="scenario"):
@@ -113,7 +115,8 @@ def parse(words, defaults, allowed=None, scenario="scenario"):
 		raise ParameterError(f"{scenario}.alpha must only be given with damping=local, got damping={values['damping']}")
 	if "safety" in values and values.get("damping") == "local" and values["safety"] > 0.95 / math.sqrt(1 + values["alpha"]):
 		raise ParameterError(
-			f"{scenario}.safety must not exceed 0.95/sqrt(1+alpha) = {0.95 / math.sqrt(1 + values['alpha']):.3g} with damping=local, got {values['safety']}"
+			f"{scenario}.safety must not exceed 0.95/sqrt(1+alpha) = {0.95 / math.sqrt(1 + values['alpha']):.3g} with damping=local, "
+			f"got {values['safety']}"
 		)
 	return Parameters(scenario, values)
 

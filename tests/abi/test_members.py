@@ -3,7 +3,7 @@ import pytest
 from yade import *
 from yade.minieigenHP import Matrix3, Quaternion, Vector3, Vector3i
 
-import probes
+import probes # noqa: F401
 from probes import abiprobe
 
 examples = [

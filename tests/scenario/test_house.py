@@ -11,7 +11,7 @@ house = Path(__file__).resolve().parents[2]
 includes = lambda path: re.findall(r'^\s*#\s*include\s*([<"][^>"]+[>"])', path.read_text(), re.M)
 
 
-@pytest.mark.parametrize('path', sorted((house / 'pkg/blocks/kernel').iterdir()), ids=lambda path: path.name)
+@pytest.mark.parametrize('path', sorted((house / 'pkg/blocks/kernel').rglob('*.?pp')), ids=lambda path: path.name)
 def test_kernelKnowsNoYade(path):
 	yade = [name for name in includes(path) if re.match(r'["<](core|lib|pkg|py)/|[<"]boost/python|[<"]Python', name)]
 	assert not yade and 'namespace yade' not in path.read_text()
@@ -19,7 +19,7 @@ def test_kernelKnowsNoYade(path):
 
 def test_kernelKnowsNoAdapter():
 	adapters = {path.name for path in (house / 'pkg/blocks').glob('*.hpp')}
-	for path in (house / 'pkg/blocks/kernel').iterdir():
+	for path in (house / 'pkg/blocks/kernel').rglob('*.?pp'):
 		assert not adapters & {Path(name.strip('<>"')).name
 					for name in includes(path) if 'kernel/' not in name} - {p.name for p in path.parent.iterdir()}, path
 

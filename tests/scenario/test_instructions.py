@@ -1,14 +1,12 @@
 # yade-blocks, GPL-2.0-or-later
 """What callgrind counted, read and sorted (scripts/price.py). Without callgrind: the profile is written by hand."""
-import importlib.util
+import sys
 from pathlib import Path
 
 import pytest
 
-path = Path(__file__).resolve().parents[2] / 'py/yadeblocks/instructions.py' # without the plugin, which importing the package would load
-spec = importlib.util.spec_from_file_location('instructions', path)
-instructions = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(instructions)
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / 'scripts'))
+from laboratory import instructions
 
 profile = """# callgrind format
 version: 1

@@ -15,12 +15,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import bare
+from yadeblocks import curves, experiments, packing, provenance
 
-package = bare.package
-calibration, curves, jobs, packing, study, tradeoff, tradeoffpicture = bare.modules(
-	"calibration", "curves", "jobs", "packing", "study", "tradeoff", "tradeoffpicture"
-)
+package = Path(curves.__file__).parent
+sys.path.insert(0, str(package.parents[1] / "scripts"))
+from laboratory import calibration, jobs, study, tradeoff, tradeoffpicture
 
 # ---- curves
 
@@ -68,8 +67,8 @@ def test_curveWithoutElasticPart():
 
 
 def test_expectationsFollowThePrecompression():
-	assert curves.expectations("shear", 0.5e6)["peak_shear_stress"][0] == pytest.approx(1.375)
-	assert curves.expectations("shear", 0)["residual_shear_stress"][0] is None # no relative error against zero
+	assert experiments.expected("shear", 0.5e6)["peak_shear_stress"][0] == pytest.approx(1.375)
+	assert experiments.expected("shear", 0)["residual_shear_stress"][0] is None # no relative error against zero
 
 
 # ---- fingerprints
@@ -88,30 +87,30 @@ def tree(tmp_path):
 
 
 def test_sourcesAreFollowed(tree):
-	found = {path.name for path in study.sourcesOf(tree / "scripts/mine.py", tree / "py/yadeblocks")}
+	found = {path.name for path in provenance.sourcesOf(tree / "scripts/mine.py", tree / "py/yadeblocks")}
 	assert found == {"mine.py", "__init__.py", "_plugin.py", "results.py", "export.py"}
 
 
 def test_realScriptsKnowTheirSources():
-	found = {path.name for path in study.sourcesOf(package.parents[1] / "scripts/tension.py", package)}
+	found = {path.name for path in provenance.sourcesOf(package.parents[1] / "scripts/tension.py", package)}
 	assert {"tension.py", "results.py", "scenario.py", "specimen.py", "export.py", "_plugin.py"} <= found and "packing.py" not in found
 
 
 @pytest.mark.parametrize("changed", ["scripts/mine.py", "py/yadeblocks/export.py"])
 def test_fingerprintSeesContents(tree, changed):
-	files = study.sourcesOf(tree / "scripts/mine.py", tree / "py/yadeblocks")
-	before = study.fingerprint(files, "YADE 1")
-	assert before == study.fingerprint(list(reversed(files)), "YADE 1") != study.fingerprint(files, "YADE 2")
+	files = provenance.sourcesOf(tree / "scripts/mine.py", tree / "py/yadeblocks")
+	before = provenance.fingerprint(files, "YADE 1")
+	assert before == provenance.fingerprint(list(reversed(files)), "YADE 1") != provenance.fingerprint(files, "YADE 2")
 	(tree / changed).write_text((tree / changed).read_text() + "# a change\n")
-	assert study.fingerprint(files, "YADE 1") != before
+	assert provenance.fingerprint(files, "YADE 1") != before
 
 
 def test_contentsMayNotChangePlaces(tmp_path):
 	a, b = tmp_path / "a.py", tmp_path / "b.py"
 	a.write_text("x"), b.write_text("yz")
-	before = study.fingerprint([a, b])
+	before = provenance.fingerprint([a, b])
 	a.write_text("yz"), b.write_text("x")
-	assert study.fingerprint([a, b]) != before
+	assert provenance.fingerprint([a, b]) != before
 
 
 def test_sameSettingsSameKey():
@@ -451,7 +450,8 @@ def test_staleCalibrationIsTold(study5):
 	for name, old, new, said in [("scripts/spheres.py", "coarser=2, steps=20000", "coarser=2, steps=10000", "code"),
 					("py/yadeblocks/packing.py", "solidity = 0.86", "solidity = 0.9", "code"),
 					("scripts/benchmark.py", "22 * q", "21 * q", "parameters"),
-					("py/yadeblocks/curves.py", "(0.35, ", "(0.36, ", "targets, code")]:
+					("py/yadeblocks/curves.py", "noise = 0.02", "noise = 0.03", "code"),
+					("py/yadeblocks/experiments.py", "tensileStrength = 0.35", "tensileStrength = 0.36", "targets")]:
 		path = study5.file(name)
 		before = path.read_text()
 		assert before.count(old) == 1

@@ -6,8 +6,9 @@ from math import radians
 
 import numpy as np
 
-import yadeblocks
+import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
+from yadeblocks.engines import engineList
 from yadeblocks.specimen import nodesWhere, rectangle
 
 brick = dict(young=16.7e9, poisson=0.2, density=1900)
@@ -27,12 +28,7 @@ def strong(**changes):
 
 def engines(joints, stepper={}, **integrator):
 	"""The list of a time step; what is in `integrator` goes to BlockIntegrator. Nothing is written where tests are run."""
-	return [
-		InteractionLoop([Ig2_Block_Block_BlockGeom()], [Ip2_BlockMat_BlockMat_JointPhys(joints=joints)], [Law2_BlockGeom_JointPhys_MohrCoulomb()]),
-		BlockTimeStepper(**stepper),
-		BlockForces(),
-		BlockIntegrator(**{'rescueFile': '', **integrator})
-	]
+	return engineList(joints, stepper=stepper, **{'rescueFile': '', **integrator})
 
 
 def materials(reset=True, **changes):

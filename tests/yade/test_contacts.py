@@ -5,9 +5,10 @@ import math
 import numpy as np
 import pytest
 
-import yadeblocks
+import yadeblocks # noqa: F401 (loads the plugin)
 from scenes import *
 from yade import *
+from yadeblocks.engines import contactEngines
 from yadeblocks.specimen import rectangle
 
 g, mu = 9.81, 0.5
@@ -99,7 +100,7 @@ def test_saveAndLoadInTheMiddleOfSliding(tmp_path):
 
 
 def test_theColliderSleepsUntilSomethingMoves():
-	model = scene(gap=0)
+	scene(gap=0)
 	O.run(2000, True)
 	assert contacts.colliderRuns <= 2
 	end = [end for i in O.interactions if 3 in (i.id1, i.id2) for end in i.geom.ends]
@@ -135,8 +136,8 @@ def test_dilatedJointsBecomeFreeContactsAndAreSaved(tmp_path):
 	m.insert()
 	limit, angle = 2e-5, 0.2
 	O.dt = 1e-3
-	O.engines = [BlockContacts(), InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0)] \
-                              + engines(glued(cohesion=1e3, tension=1e3, frictionAngle=0.5, dilationAngle=angle, dilationLimitSlip=limit), alpha=0.8)
+	joints = glued(cohesion=1e3, tension=1e3, frictionAngle=0.5, dilationAngle=angle, dilationLimitSlip=limit)
+	O.engines = contactEngines() + engines(joints, alpha=0.8)
 	O.run(200, True)
 	before = m.position[upper, 1].mean()
 	O.run(400, True)

@@ -87,7 +87,7 @@ def test_fallingBlock():
 
 
 def test_switchedOnInTheMiddle():
-	m = couplet(damping='none')
+	couplet(damping='none')
 	O.run(600, True)
 	O.trackEnergy = True
 	O.run(1, True)

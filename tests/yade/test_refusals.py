@@ -397,7 +397,7 @@ def test_safetyWithMuchLocalDamping(run):
 
 @running
 def test_stepAboveTheStableLimit(run):
-	m = standing()
+	standing()
 	O.engines[1].quasiStatic = False
 	O.run(10, True)
 	O.engines[1].dead = True

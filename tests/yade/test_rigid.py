@@ -248,7 +248,8 @@ def test_whoIsHeldDoesNotLimitTheStep():
 
 
 def test_aKickAndWhatAContactMakesOfIt():
-	"""Quasi-static: a rigid block falls at its true mass. Where it meets others, its mass is scaled, and it keeps its momentum, not its energy times a thousand."""
+	"""Quasi-static: a rigid block falls at its true mass. Where it meets others, its mass is scaled, and it keeps its momentum, not its energy times a
+	thousand."""
 	rigidMaterials()
 	model = BlockModel(thickness=0.1)
 	floor = model.addRigid(rectangle(-1, -0.2, 1, 0), 'steel')
@@ -545,7 +546,7 @@ def test_otherShapes(shape):
 
 
 def test_picturesAndExport(tmp_path):
-	from yadeblocks.export import BlocksExport, blockOutlines
+	from yadeblocks.export import BlocksExport
 	from yadeblocks.pictures import drawCracks
 	import meshio
 	model = scene()

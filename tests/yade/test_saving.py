@@ -20,7 +20,7 @@ def test_aSavedRunContinuesWithTheSameBits(ending, damping, trackEnergy, tmp_pat
 	O.run(400, True)
 	expected = state(whole)
 
-	first = couplet(damping=damping, trackEnergy=trackEnergy)
+	couplet(damping=damping, trackEnergy=trackEnergy)
 	O.run(steps, True)
 	file = str(tmp_path / ('half' + ending))
 	O.save(file)
@@ -66,7 +66,7 @@ def test_runsInPieces():
 
 
 def test_theModelIsSavedOnce(tmp_path):
-	m = couplet()
+	couplet()
 	O.run(1, True)
 	sizes = []
 	for name in 'first.xml', 'second.xml':
@@ -84,7 +84,7 @@ def test_theModelIsSavedOnce(tmp_path):
 
 
 def test_loadedPropertiesAreThoseSaved(tmp_path):
-	m = couplet()
+	couplet()
 	O.run(1, True)
 	i = O.interactions[0, 1] if O.interactions.has(0, 1) else next(iter(O.interactions))
 	ids = i.id1, i.id2

@@ -1,7 +1,5 @@
 # yade-blocks, GPL-2.0-or-later
 """The same bits on one thread and on two, and from run to run."""
-import pytest
-
 from scenes import *
 
 # 1050 cells, more than 6000 zones: BlockEngines' threadsFor then starts a second thread

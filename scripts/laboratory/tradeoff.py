@@ -5,7 +5,7 @@ An error over several seeds is Error(mean, scatter, rms): rms = sqrt(mean of the
 luck. Errors are against the laboratory (the same value for all seeds) or against a reference (each seed's own slow run).
 """
 import math
-from typing import NamedTuple, Optional
+from typing import NamedTuple
 
 import numpy as np
 
@@ -176,7 +176,8 @@ def _bestFor(blocks, name, known, limits):
 		else:
 			row = min(compared, key=error)
 			told.append(
-				f"{_percent(limit)}: none of the settings tried, the best is {row.label} ({row.cpu:.2g} CPU s, {_percent(row.rms('reference', name))})"
+				f"{_percent(limit)}: none of the settings tried, the best is {row.label} "
+				f"({row.cpu:.2g} CPU s, {_percent(row.rms('reference', name))})"
 			)
 		if unknown > limit: break
 	return f"For the {shortNames[name]} within " + "; ".join(told) + "."

@@ -24,7 +24,10 @@ from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
-from . import curves, study
+from yadeblocks import curves
+from yadeblocks.provenance import fingerprint, sourcesOf
+
+from . import study
 
 
 class Job(NamedTuple):
@@ -52,7 +55,7 @@ class Jobs:
 
 	def path(self, job):
 		"""Where the result of this job is kept."""
-		return self.kept / f"{study.fingerprint((), job.name, self.code(job.script))[:24]}.json"
+		return self.kept / f"{fingerprint((), job.name, self.code(job.script))[:24]}.json"
 
 	def result(self, job):
 		"""What the job gave: {"job", "measures", "cost", "quality"} or {"job", "failed": reason}; None if it has not been run with this code."""
@@ -185,8 +188,8 @@ class Jobs:
 
 	def _code(self, script):
 		"""The hash of all that a run of this script depends on but its settings."""
-		files = study.sourcesOf(self.house / "scripts" / f"{script}.py", self.house / "py" / "yadeblocks")
-		return study.fingerprint(files + ([] if script in self.pluginFree else [self.plugin]), yadeVersion(), _processor())
+		files = sourcesOf(self.house / "scripts" / f"{script}.py", self.house / "py" / "yadeblocks")
+		return fingerprint(files + ([] if script in self.pluginFree else [self.plugin]), yadeVersion(), _processor())
 
 
 @lru_cache(maxsize=None)

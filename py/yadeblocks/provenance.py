@@ -1,5 +1,5 @@
 # yade-blocks, GPL-2.0-or-later
-"""What a run depends on: the code behind a script, and its settings."""
+"""The code that a script depends on, and a hash of it."""
 import ast
 import hashlib
 import json
@@ -43,26 +43,3 @@ def fingerprint(paths, *more):
 		digest.update(f"\0{path.name}\0".encode())
 		digest.update(hashlib.sha256(path.read_bytes()).digest())
 	return digest.hexdigest()
-
-
-def meaning(path):
-	"""The code of a Python file as text that comments, docstrings and layout leave as it is."""
-	tree = ast.parse(Path(path).read_text())
-	for node in ast.walk(tree):
-		if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node) is not None:
-			del node.body[0]
-	return ast.dump(tree)
-
-
-def settingsKey(settings):
-	"""Settings as text, in one order, however they were given: "alpha=0.3 steps=40000"; 4e4, 40000.0 and 40000 are the same."""
-	return " ".join(f"{key}={plain(value)}" for key, value in sorted(settings.items()))
-
-
-def plain(value):
-	"""A value as the command line takes it."""
-	if isinstance(value, bool):
-		return str(value).lower()
-	if isinstance(value, float):
-		return repr(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
-	return str(value)

@@ -40,14 +40,9 @@ def drawTradeoff(path, cases, names, lines, title=""):
 			for j, (kind, against) in enumerate((("reference", "its own slow run"), ("laboratory", "the laboratory"))):
 				axes = figure.add_subplot(grid[i, j])
 				axes.set_ylabel("rms error [%]")
-				_panel(
-					axes, [
-						row for row in rows if (
-							row.knob not in ("one set", "low friction"
-										) if kind == "laboratory" else not row.isReference and row.knob not in specimenKnobs
-						)
-					], kind, names
-				)
+				if kind == "laboratory": shown = [row for row in rows if row.knob not in ("one set", "low friction")]
+				else: shown = [row for row in rows if not row.isReference and row.knob not in specimenKnobs]
+				_panel(axes, shown, kind, names)
 				axes.set_title(f"{case}: {shortNames[names[0]]} against {against}", loc="left", fontsize=8)
 				if i == len(cases) - 1: axes.set_xlabel("CPU time of a run [s]")
 		models = [model for model in _looks if any(row.model == model for rows in cases.values() for row in rows)]

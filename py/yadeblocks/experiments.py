@@ -1,0 +1,45 @@
+# yade-blocks, GPL-2.0-or-later
+"""What the laboratory and the paper measured, in N/mm2 = MPa, and what theory says where there is no measurement. Each value stands here and nowhere else.
+
+	experiments.expected("shear", sigma=0.5e6)["peak_shear_stress"]     # (1.375, "Van der Pluijm 1993: 0.87 + 1.01 sigma")
+"""
+
+tensileStrength = 0.35, "Van der Pluijm 1992" # direct tension of couplets, 1:1:6 mortar
+tensileStrengthOfPaper = {2e-3: (0.35, "paper, Fig. 10"), 6e-3: (0.43, "paper, Fig. 10")} # by mean edge of the blocks [m]
+shearCohesion, shearFriction, residualFriction = 0.87, 1.01, 0.73 # [MPa], tangents; shear of couplets, 1:2:9 mortar, Van der Pluijm 1993
+compressiveStrength = 27.5, "Oliveira 2003" # of a prism
+youngsModulus = 4100., "Oliveira 2003"
+
+
+def peakShearStress(sigma):
+	"""Under a precompression sigma [Pa]: (value [MPa], source)."""
+	return shearCohesion + shearFriction * sigma / 1e6, "Van der Pluijm 1993: 0.87 + 1.01 sigma"
+
+
+def residualShearStress(sigma):
+	"""Under a precompression sigma [Pa]: (value [MPa], source); None without precompression, where there is nothing to compare with."""
+	return residualFriction * sigma / 1e6 or None, "Van der Pluijm 1993: 0.73 sigma"
+
+
+edgeToSide = 1.61 # square root of the mean area by mean edge of Voronoi blocks
+
+
+def seriesStiffness(height, young, poisson, kn, side, planeStrain=True):
+	"""Stiffness per area across a mortar layer of Voronoi blocks between two stiff faces [Pa/m]: its mortar, the joints within and
+	one more at the face in series.
+
+	height [m]; young [Pa]; kn [Pa/m]: of all joints; side: square root of the mean area of a block [m]. Within 5 % (design.md, section 4)."""
+	modulus = young / (1 - poisson**2 if planeStrain else 1)
+	return 1 / (height / modulus + height / (0.92 * kn * side) + 1 / kn)
+
+
+def expected(experiment, sigma=0.0):
+	"""What should come out of "tension", "shear" or "compression": {name of the quantity: (value, source)}; sigma: precompression [Pa].
+
+	The stiffness across the joint in tension is theory, for blocks with edges of 2 mm; a scenario with others says so itself."""
+	if experiment == "tension":
+		stiffness = seriesStiffness(15e-3, 2.974e9, 0.2, 400e9, edgeToSide * 2e-3)
+		return {"peak_tensile_stress": tensileStrength, "joint_stiffness": (stiffness / 1e9, "series of mortar and joints")}
+	if experiment == "shear":
+		return {"peak_shear_stress": peakShearStress(sigma), "residual_shear_stress": residualShearStress(sigma)}
+	return {"compressive_strength": compressiveStrength, "youngs_modulus": youngsModulus}

@@ -1,0 +1,27 @@
+# yade-blocks, GPL-2.0-or-later
+"""What a run of the study is: its settings as text, and what its code means."""
+import ast
+from pathlib import Path
+
+
+def meaning(path):
+	"""The code of a Python file as text that comments, docstrings and layout leave as it is."""
+	tree = ast.parse(Path(path).read_text())
+	for node in ast.walk(tree):
+		if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node) is not None:
+			del node.body[0]
+	return ast.dump(tree)
+
+
+def settingsKey(settings):
+	"""Settings as text, in one order, however they were given: "alpha=0.3 steps=40000"; 4e4, 40000.0 and 40000 are the same."""
+	return " ".join(f"{key}={plain(value)}" for key, value in sorted(settings.items()))
+
+
+def plain(value):
+	"""A value as the command line takes it."""
+	if isinstance(value, bool):
+		return str(value).lower()
+	if isinstance(value, float):
+		return repr(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
+	return str(value)
