@@ -118,7 +118,7 @@ def made(folder, *words):
 	return Process(folder, folder / 'mine.py', *words).wait()
 
 
-@pytest.mark.parametrize('fail, said', [('build', 'the second one cannot be built'), ('reading', 'the reading'), ('step', 'there are no blocks')])
+@pytest.mark.parametrize('fail, said', [('build', 'the second one cannot be built'), ('reading', 'the reading'), ('step', 'no blocks in the scene')])
 def test_anErrorInTheSecondSeed(fail, said, tmp_path):
 	code, text = made(tmp_path, 'seeds=3', 'fail=' + fail)
 	assert code == 1 and said in text and 'mine: results of seed 1 are in out/mine' in text, text

@@ -36,6 +36,7 @@ namespace serialization {
 	BLOCKS_ARCHIVE(RigidBlock)
 	BLOCKS_ARCHIVE(EdgePair)
 	BLOCKS_ARCHIVE(FreeContact)
+	BLOCKS_ARCHIVE(ContactMemory)
 	BLOCKS_ARCHIVE(ReleasedWork)
 	BLOCKS_ARCHIVE(Accounts)
 	BLOCKS_ARCHIVE(State)

@@ -177,7 +177,7 @@ TEST(FreeContacts, NothingHappensWithoutThem)
 {
 	BlockAssembly a = twoBlocks(elasticJoint(1e9, 5e8));
 	computeForces(a);
-	EXPECT_TRUE(!a.contacts.started && a.state.contacts.empty() && a.contacts.rounding.empty() && a.contacts.detectedAt.empty());
+	EXPECT_TRUE(!a.contacts.started && a.state.contacts.empty() && a.contacts.rounding.empty() && a.state.search.detectedAt.empty());
 	EXPECT_EQ(contactOf(a, 0, 1), -1);
 }
 
@@ -944,7 +944,7 @@ TEST(FreeContacts, SameBitsWhateverThreadsAndOrder)
 	shuffled.state.contacts.insert(shuffled.state.contacts.begin(), 3, FreeContact());
 	rebuildContacts(shuffled);
 	s.steps(1000, [&](Real) {
-		if (s.step % 7 == 0) shuffled.contacts.mayGo = 0;
+		if (s.step % 7 == 0) shuffled.state.search.mayGo = 0;
 		if (s.step % 100 == 0) shuffled.contacts.started = false; // everything is looked for
 	});
 	EXPECT_GE(shuffled.contacts.looks, 1000 / 7);

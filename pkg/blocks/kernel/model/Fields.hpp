@@ -69,6 +69,11 @@ template <class T, class Visit, Only<T, FreeContact> = 0> void forEachField(T& x
 	visit("block", x.block), visit("edges", x.edges), visit("friction", x.friction), visit("joint", x.joint);
 }
 
+template <class T, class Visit, Only<T, ContactMemory> = 0> void forEachField(T& x, Visit&& visit)
+{
+	visit("detectedAt", x.detectedAt), visit("lookedAt", x.lookedAt), visit("mayGo", x.mayGo);
+}
+
 template <class T, class Visit, Only<T, ReleasedWork> = 0> void forEachField(T& x, Visit&& visit) { visit("work", x.work), visit("turnover", x.turnover); }
 
 template <class T, class Visit, Only<T, Accounts> = 0> void forEachField(T& x, Visit&& visit)
@@ -82,7 +87,7 @@ template <class T, class Visit, Only<T, State> = 0> void forEachField(T& x, Visi
 	visit("displacement", x.displacement), visit("velocity", x.velocity), visit("inertia", x.inertia);
 	visit("opening", x.opening), visit("slip", x.slip), visit("sigma", x.sigma), visit("tau", x.tau);
 	visit("slipPlastic", x.slipPlastic), visit("uplift", x.uplift), visit("status", x.status), visit("released", x.released);
-	visit("groups", x.groups), visit("rigid", x.rigid), visit("contacts", x.contacts), visit("lostFriction", x.lostFriction);
+	visit("groups", x.groups), visit("rigid", x.rigid), visit("contacts", x.contacts), visit("search", x.search), visit("lostFriction", x.lostFriction);
 	visit("viscosity", x.viscosity), visit("accounts", x.accounts);
 }
 

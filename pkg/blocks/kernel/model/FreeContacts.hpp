@@ -46,6 +46,13 @@ struct Odometer {
 	std::vector<Real> path;   ///< of blocks: the largest step of any of their grid points, summed over the steps [m]
 };
 
+/// When neighbours were last looked for. It decides which contacts there are, and so masses; empty without general contact.
+struct ContactMemory {
+	std::vector<Vec2> detectedAt; ///< displacements at which the edge pairs of the grid point's block were last looked for [m]
+	std::vector<Vec2> lookedAt;   ///< displacements at the last look [m]
+	Real              mayGo = 0;  ///< until a grid point is this far from lookedAt, nobody need look [m]
+};
+
 /// Who may touch whom. All of it follows from the state.
 struct FreeContacts {
 	bool wanted  = false; ///< whether the scene has general contact
@@ -65,9 +72,6 @@ struct FreeContacts {
 
 	// ---- how far things have moved
 	Odometer          odometer;
-	std::vector<Vec2> detectedAt; ///< displacements at which the edge pairs of the grid point's block were last looked for [m]
-	std::vector<Vec2> lookedAt;   ///< displacements at the last look [m]
-	Real              mayGo = 0;  ///< until a grid point is this far from lookedAt, nobody need look [m]
 	std::vector<int>  waiting;    ///< broken joints that will be released, in their order
 
 	static constexpr Real mayMove = 0.016; ///< of a mean edge, until edge pairs are looked for anew

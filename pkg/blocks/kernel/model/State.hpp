@@ -39,6 +39,7 @@ struct State {
 
 	// ---- blocks that touch without being bonded
 	std::vector<FreeContact> contacts; ///< an index stays valid while its contact lives
+	ContactMemory            search;
 	Real                     lostFriction = 0; ///< dissipated by contacts that are no more [J]
 
 	Real     viscosity = 0; ///< c of the adaptive damping, what it has come to [1/s]

@@ -199,17 +199,20 @@ namespace {
 	/// How far a block's grid points may move until its neighbours are looked for anew [m].
 	Real limitOf(const FreeContacts& f, int block) { return FreeContacts::mayMove * f.meanEdge[block]; }
 
-	/// The first step of a scene, or the first after its state was put back: everything is looked for.
-	void start(BlockAssembly& a)
+	/// The first step of a scene, or the first after its state was put back. Whether neighbours are known.
+	bool start(BlockAssembly& a)
 	{
-		FreeContacts& f = a.contacts;
+		FreeContacts& f     = a.contacts;
+		const bool    known = int(a.state.search.lookedAt.size()) == a.nodeCount();
 		rebuildContacts(a);
 		f.odometer.path.assign(a.blockCount(), 0);
-		f.odometer.seenAt = f.detectedAt = f.lookedAt = a.state.displacement;
+		f.odometer.seenAt = a.state.displacement;
+		if (!known) a.state.search.detectedAt = a.state.search.lookedAt = a.state.displacement;
 		f.waiting.clear();
 		for (int i = 0; i < a.joints.count(); ++i)
 			if (!a.state.released[i] && releaseOf(a, i) != Release::never) f.waiting.push_back(i);
 		f.started = true;
+		return known;
 	}
 
 	/// Pairs of blocks, not bonded, of which one has moved, and whose boxes are close enough for a contact before the next look.
@@ -242,23 +245,23 @@ namespace {
 	}
 
 	/// Looks at every block: edge pairs of those that have moved too far, new neighbours, contacts that are no more. Until some
-	/// grid point has moved by f.mayGo from here, nothing of this can change.
+	/// grid point has moved by a.state.search.mayGo from here, nothing of this can change.
 	void look(BlockAssembly& a, bool everything)
 	{
 		FreeContacts&    f = a.contacts;
 		std::vector<int> moved;
-		f.mayGo = std::numeric_limits<Real>::infinity();
+		a.state.search.mayGo = std::numeric_limits<Real>::infinity();
 		for (int b = 0; b < a.blockCount(); ++b) {
-			const Real limit = limitOf(f, b), went = std::sqrt(farthestMove(a, b, f.detectedAt));
+			const Real limit = limitOf(f, b), went = std::sqrt(farthestMove(a, b, a.state.search.detectedAt));
 			if (everything || !(went <= lookAgain * limit)) {
 				moved.push_back(b);
 				for (int n = a.mesh.firstNode[b]; n < a.mesh.firstNode[b + 1]; ++n)
-					f.detectedAt[n] = a.state.displacement[n];
-				f.mayGo = std::min(f.mayGo, limit);
+					a.state.search.detectedAt[n] = a.state.displacement[n];
+				a.state.search.mayGo = std::min(a.state.search.mayGo, limit);
 			} else
-				f.mayGo = std::min(f.mayGo, limit - went);
+				a.state.search.mayGo = std::min(a.state.search.mayGo, limit - went);
 		}
-		f.lookedAt = a.state.displacement;
+		a.state.search.lookedAt = a.state.displacement;
 		++f.looks;
 		if (moved.empty()) return;
 
@@ -348,19 +351,19 @@ void setGeneralContact(BlockAssembly& a, bool wanted)
 		if (!wanted && c.block[0] >= 0)
 			throw std::runtime_error("general contact cannot be switched off any more: blocks are in contact without a bond");
 	a.contacts.wanted = wanted;
+	a.state.search    = {};
 	rebuildContacts(a);
 }
 
 void prepareContacts(BlockAssembly& a)
 {
 	FreeContacts& f = a.contacts;
-	if (!f.started) {
-		start(a);
+	if (!f.started && !start(a))
 		look(a, true);
-	} else {
+	else {
 		followMotion(a);
-		const Real perAxis = f.mayGo * std::sqrt(Real(0.5)); // two axes, each by this much
-		if (countMoved(a.state.displacement.data()->data(), f.lookedAt.data()->data(), 2 * a.nodeCount(), perAxis) > 0) look(a, false);
+		const Real perAxis = a.state.search.mayGo * std::sqrt(Real(0.5)); // two axes, each by this much
+		if (countMoved(a.state.displacement.data()->data(), a.state.search.lookedAt.data()->data(), 2 * a.nodeCount(), perAxis) > 0) look(a, false);
 	}
 	collectBroken(a);
 	if (!f.waiting.empty()) releaseBroken(a);
