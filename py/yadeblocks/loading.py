@@ -36,23 +36,33 @@ class Approach:
 		if not 0 < slow <= 1: raise ValueError('Approach: slow must lie in (0, 1], got %r' % slow)
 		if not 0 < drop < 1: raise ValueError('Approach: drop must lie in (0, 1), got %r' % drop)
 		self.model, self.group, self.speed = model, group, slow
-		self.peak = Peak(drop)
+		self._peak = Peak(drop)
 		model.setThrottle(group, slow)
+
+	@property
+	def peak(self):
+		"""The highest stress so far [Pa]."""
+		return self._peak.value
+
+	@property
+	def passed(self):
+		"""Whether the peak has been passed."""
+		return self._peak.passed
 
 	@property
 	def kept(self):
 		"""What a checkpoint keeps."""
-		return {"speed": self.speed, "peak": self.peak.kept}
+		return {"speed": self.speed, "peak": self._peak.kept}
 
 	@kept.setter
 	def kept(self, kept):
-		self.speed, self.peak.kept = kept["speed"], kept["peak"]
+		self.speed, self._peak.kept = kept["speed"], kept["peak"]
 		self.model.setThrottle(self.group, self.speed)
 
 	def __call__(self, stress, broken):
 		"""Looks at the present stress [Pa] and number of broken contact points."""
-		self.peak.look(stress, broken)
-		if self.peak.passed and self.speed < 1:
+		self._peak.look(stress, broken)
+		if self._peak.passed and self.speed < 1:
 			self.speed = min(1, 1.1 * self.speed)
 			self.model.setThrottle(self.group, self.speed)
 
@@ -69,20 +79,25 @@ class Stop:
 		if displacement is not None and not displacement > 0: raise ValueError('Stop: displacement must be positive, got %r' % displacement)
 		if cracks is not None and not cracks >= 1: raise ValueError('Stop: cracks must be at least 1, got %r' % cracks)
 		self.drop, self.displacement, self.cracks = drop, displacement, cracks
-		self.peak, self.reason = Peak(drop or 0), ''
+		self._peak, self.reason = Peak(drop or 0), ''
+
+	@property
+	def peak(self):
+		"""The highest stress so far [Pa]."""
+		return self._peak.value
 
 	@property
 	def kept(self):
 		"""What a checkpoint keeps."""
-		return {"peak": self.peak.kept, "reason": self.reason}
+		return {"peak": self._peak.kept, "reason": self.reason}
 
 	@kept.setter
 	def kept(self, kept):
-		self.peak.kept, self.reason = kept["peak"], kept["reason"]
+		self._peak.kept, self.reason = kept["peak"], kept["reason"]
 
 	def __call__(self, displacement, stress, broken):
 		"""Looks at the present state: displacement [m], stress [Pa], number of broken contact points."""
-		below = self.peak.look(stress, broken)
+		below = self._peak.look(stress, broken)
 		if self.drop is not None and below: self.reason = 'drop'
 		elif self.displacement is not None and abs(displacement) >= self.displacement: self.reason = 'displacement'
 		elif self.cracks is not None and broken >= self.cracks: self.reason = 'cracks'

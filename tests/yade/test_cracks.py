@@ -7,8 +7,8 @@ from scenes import *
 header = 'step time x y nx ny mode body1 body2 material1 material2'
 
 
-def recorded(tmp_path, steps, file='cracks.txt', **attributes):
-	m = couplet()
+def recorded(tmp_path, steps, file='cracks.txt', size=6e-3, **attributes):
+	m = couplet(size=size)
 	O.engines += [BlockCrackRecorder(fileName=str(tmp_path / file) if file else '', label='recorder', **attributes)]
 	O.run(steps, True)
 	return m, O.engines[-1]
@@ -128,3 +128,22 @@ def test_afterARescue(tmp_path):
 		assert sorted(recorder.points) == np.flatnonzero(m.pointStatus).tolist() and set(recorder.modes) <= {1, 2}
 		steps = [e['step'] for e in recorder.events]
 		assert steps == sorted(steps) and len(steps) > 2
+
+
+@pytest.mark.parametrize('room, events', [('4k', 'some'), ('full', 'none')])
+def test_fullDisk(tmp_path, room, events):
+	"""One line that says what is full; the lines that fit are whole, and all events are still there."""
+	if subprocess.run(['mount', '-t', 'tmpfs', '-o', 'size=4k', 'tmpfs', tmp_path], capture_output=True).returncode: pytest.skip('no right to mount a small disk')
+	try:
+		if room == 'full': (tmp_path / 'filler').write_bytes(b'x' * 4096)
+		with pytest.raises(RuntimeError, match='BlockCrackRecorder.fileName: cannot write to .*cracks.txt: No space left on device'): recorded(tmp_path, 3000, size=2e-3)
+		recorder = O.engines[-1]
+		text = (tmp_path / 'cracks.txt').read_text()
+		if events == 'none': assert text == '' and O.iter < 2
+		else:
+			assert text.endswith('\n') and 3000 < len(text) <= 4096 # no half line
+			written = lines(tmp_path / 'cracks.txt')
+			assert all(len(line) == 11 for line in written) and 0 < len(written) < len(recorder.events)
+			assert [int(line[0]) for line in written] == [event['step'] for event in recorder.events][:len(written)]
+	finally:
+		subprocess.run(['umount', tmp_path], check=True)

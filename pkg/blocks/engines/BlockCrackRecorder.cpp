@@ -1,8 +1,12 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/engines/BlockCrackRecorder.hpp>
 #include <blocks/kernel/step/Joints.hpp>
+#include <cerrno>
 #include <core/Omega.hpp>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <sstream>
 
 namespace yade {
 
@@ -10,6 +14,22 @@ BlockCrackRecorder::~BlockCrackRecorder() = default;
 
 namespace {
 	const char* nameOf(int mode) { return mode == int(blocks::Joint::brokenInTension) ? "tension" : "shear"; }
+
+	/// Adds lines to a file, all of them or none: where they do not fit, the file keeps the whole lines that it had.
+	void addLines(const string& path, const string& lines, std::ios::openmode mode)
+	{
+		std::error_code none;
+		const auto      size   = std::filesystem::file_size(path, none);
+		const auto      before = none || mode == std::ios::trunc ? 0 : size;
+		errno                  = 0;
+		std::ofstream file(path, mode);
+		file << lines;
+		file.close(); // what the disk has no room for is noticed here
+		if (file) return;
+		const string reason = errno ? std::strerror(errno) : "no reason given";
+		std::filesystem::resize_file(path, before, none);
+		throw std::runtime_error("BlockCrackRecorder.fileName: cannot write to " + path + ": " + reason);
+	}
 
 	string labelOf(const BlockModel& model, int block) { return model.materialLabels[model.assembly.mesh.blockMaterial[block]]; }
 }
@@ -22,7 +42,7 @@ void BlockCrackRecorder::action()
 		known.clear();
 		for (blocks::Joint status : a.state.status)
 			known.push_back(int(status));
-		if (!fileName.empty()) std::ofstream(fileName) << "step time x y nx ny mode body1 body2 material1 material2\n";
+		if (!fileName.empty()) visibly([&] { addLines(fileName, "step time x y nx ny mode body1 body2 material1 material2\n", std::ios::trunc); });
 	}
 	bool takenBack = false; // a rescued state is older than what was seen: there are joints that are whole again
 	for (size_t i = 0; i < known.size() && !takenBack; ++i)
@@ -50,7 +70,7 @@ void BlockCrackRecorder::action()
 		positions.push_back(blocks::contactPosition(a, int(i)));
 	}
 	if (fileName.empty() || points.size() == before) return;
-	std::ofstream file(fileName, std::ios::app);
+	std::ostringstream file;
 	file.imbue(std::locale::classic());
 	file.precision(9);
 	for (size_t e = before; e < points.size(); ++e) {
@@ -60,7 +80,7 @@ void BlockCrackRecorder::action()
 		     << nameOf(modes[e]) << ' ' << model.firstBody + g.block[0] << ' ' << model.firstBody + g.block[1] << ' ' << labelOf(model, g.block[0])
 		     << ' ' << labelOf(model, g.block[1]) << '\n';
 	}
-	if (!file) throw std::runtime_error("BlockCrackRecorder.fileName: cannot write to " + fileName);
+	visibly([&] { addLines(fileName, file.str(), std::ios::app); });
 }
 
 py::list BlockCrackRecorder::events() const

@@ -1,0 +1,91 @@
+# yade-blocks, GPL-2.0-or-later
+"""Runs that were killed or interrupted go on where the last checkpoint was, with the same bits.
+
+	KILLS=100 ctest --test-dir build -R yade.test_resume     kills a run so many times (without: five times)
+"""
+import random
+import shutil
+import signal
+
+import pytest
+
+from processes import *
+
+quick = { # some seconds each, with cracks
+	'tension': ['case=TT3', 'alpha=0.3', 'steps=100000', 'seeds=2', 'vtk=false'],
+	'shear': ['size=7e-3', 'steps=4000', 'vtk=false'],
+	'compression': ['width=0.1', 'unitSize=0.02', 'mortarSize=0.006', 'steps=4000', 'vtk=false']
+}
+kills = int(os.environ.get('KILLS', 5))
+
+
+@pytest.mark.parametrize('name', list(quick))
+def test_killedAndResumed(name, tmp_path):
+	"""Killed at random moments, again and again; each time resume=true goes on. In the end nothing but the cost tells it from the run that was left alone."""
+	whole, torn, dice = tmp_path / 'whole', tmp_path / 'torn', random.Random(1)
+	whole.mkdir(), torn.mkdir()
+	process = Process(whole, name, *quick[name])
+	assert process.until(lambda: (whole / 'out').exists())
+	begun = time.monotonic()
+	code, text = process.wait()
+	assert code == 0, text
+	lasting, expected = time.monotonic() - begun, result(whole, name)
+
+	share = list(quick).index(name)
+	for _ in range(kills * (share + 1) // len(quick) - kills * share // len(quick)): # five are 1, 2 and 2
+		process = Process(torn, name, *quick[name], 'checkpoint=0.2', 'resume=true')
+		assert process.until(lambda: (torn / 'out').exists())
+		time.sleep(dice.uniform(0.1, 0.7) * lasting)
+		process.popen.kill()
+		assert process.wait()[0] == -signal.SIGKILL
+	checkpoints = list((torn / 'out' / name / 'checkpoint').glob('0*'))
+	assert 0 < len(checkpoints) <= 3 # the third: killed before the oldest went
+	code, text = Process(torn, name, *quick[name], 'checkpoint=0.2', 'resume=true').wait()
+	assert code == 0 and name + ': goes on ' in text, text
+	found = result(torn, name)
+	assert withoutCost(found) == withoutCost(expected) and found['cost']['steps'] == expected['cost']['steps']
+	assert (torn / 'out' / name / 'curve.csv').read_text() == (whole / 'out' / name / 'curve.csv').read_text()
+	assert found['cost']['cpu_s'] > 0.5 * expected['cost']['cpu_s'] # adds up; machines run unevenly
+	assert not (torn / 'out' / name / 'checkpoint').exists() and (torn / 'out' / name / 'cracks.png').exists()
+
+
+def test_resumedWithTheServoAndAtHalfTheRate(tmp_path):
+	"""Interrupted in the second loading of a seed: what the first one gave is kept."""
+	words = ['case=TT3', 'steps=20000', 'servo=true', 'halfRate=true', 'jump=false', 'vtk=false', 'damping=local']
+	whole, torn = tmp_path / 'whole', tmp_path / 'torn'
+	whole.mkdir(), torn.mkdir()
+	assert Process(whole, 'tension', *words).wait()[0] == 0
+	process = Process(torn, 'tension', *words, 'checkpoint=0.1')
+	checkpoint = lambda: sorted((torn / 'out/tension/checkpoint').glob('0*'))
+
+	def atHalfTheRate():
+		try:
+			return json.loads((checkpoint()[-1] / 'state.json').read_text())['state']['stage']['label'] == 'seed 1, half rate'
+		except (IndexError, OSError, KeyError):
+			return False
+
+	assert process.until(atHalfTheRate)
+	process.popen.send_signal(signal.SIGTERM)
+	code, text = process.wait()
+	assert code == 143 and 'results of seed 1 are in out/tension, resume=true goes on' in text, text
+	refused, text = Process(torn, 'tension', *words[:-1], 'damping=adaptive', 'resume=true').wait()
+	assert refused == 2 and 'resume=true goes on with the same code and keys only' in text
+	code, text = Process(torn, 'tension', *words, 'resume=true').wait()
+	assert code == 0 and 'tension: goes on in seed 1, half rate' in text, text
+	assert withoutCost(result(torn, 'tension')) == withoutCost(result(whole, 'tension'))
+	code, text = Process(torn, 'tension', *words, 'resume=true').wait()
+	assert code == 0 and 'out/tension is complete: there is nothing to go on with' in text
+
+
+def test_resumedWithOtherCode(tmp_path):
+	(tmp_path / 'scripts').mkdir()
+	script = tmp_path / 'scripts/tension.py'
+	shutil.copy(scripts / 'tension.py', script)
+	words = ['case=TT3', 'steps=1000000', 'vtk=false']
+	process = Process(tmp_path, script, *words, 'checkpoint=0.2')
+	assert process.until(lambda: list((tmp_path / 'out/tension/checkpoint').glob('0*/scene.yade')))
+	process.popen.kill()
+	process.wait()
+	script.write_text(script.read_text() + '# other code\n')
+	code, text = Process(tmp_path, script, *words, 'resume=true').wait()
+	assert code == 2 and text.strip().splitlines()[-1].endswith('the checkpoint has other ones: code'), text
