@@ -446,7 +446,10 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 	             &push,
 	             (arg("name"), arg("nodes"), arg("axis"), arg("force"), arg("rampTime") = 0., arg("startTime") = 0.),
 	             "Moves grid points along one axis as one, as under a platen that stays parallel, by a total force [N].")
-		.def("release", &release, (arg("name")), "Sets the grid points of a group free; they go on with the velocity they have. Its work stays in the accounts.")
+		.def("release",
+	             &release,
+	             (arg("name")),
+	             "Sets the grid points of a group free; they go on with the velocity they have. Its work stays in the accounts.")
 		.def("setTarget",
 	             &setTarget,
 	             (arg("name"), arg("target"), arg("rampTime") = 0.),
@@ -532,7 +535,7 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 											node,
 											4,
 											"Edge a1, b1 of the first and a2, b2 of the second block of every "
-	                                                                                "segment, shape (segments, 4).")
+											"segment, shape (segments, 4).")
 											VIEW_FIELD(
 												result,
 												segmentBlocks,
@@ -551,8 +554,8 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 													s1,
 													4,
 													"Where the two contact points are along the first "
-	                                                                                                "edge, then along the second (0 at a, 1 at b), shape "
-	                                                                                                "(segments, 4).")
+													"edge, then along the second (0 at a, 1 at b), shape "
+													"(segments, 4).")
 													VIEW_FIELD(
 														result,
 														segmentArea,
@@ -562,9 +565,9 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 														area,
 														1,
 														"Area of each of the two contact points of "
-	                                                                                                        "every segment; 0 once it has broken and its "
-	                                                                                                        "edges are a free contact, which has all that "
-	                                                                                                        "they carry [m2].")
+														"every segment; 0 once it has broken and its "
+														"edges are a free contact, which has all that "
+														"they carry [m2].")
 														VIEW_JOINT(
 															normal,
 															frames,
@@ -572,7 +575,7 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 															nx,
 															2,
 															"Unit normals of the segments, out of "
-	                                                                                                                "the first block, shape (segments, 2).")
+															"the first block, shape (segments, 2).")
 															VIEW_JOINT(
 																pointOpening,
 																points,
@@ -580,7 +583,7 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 																opening,
 																1,
 																"Openings of the contact "
-	                                                                                                                        "points, two a segment [m].")
+																"points, two a segment [m].")
 																VIEW_JOINT(
 																	pointSlip,
 																	points,
@@ -588,7 +591,7 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 																	slip,
 																	1,
 																	"Slips of the contact "
-	                                                                                                                                "points [m].")
+																	"points [m].")
 																	VIEW_FIELD(
 																		result,
 																		pointSigma,
@@ -598,12 +601,12 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 																		sigma,
 																		1,
 																		"Normal "
-	                                                                                                                                        "stresses of "
-	                                                                                                                                        "the contact "
-	                                                                                                                                        "points, "
-	                                                                                                                                        "tension "
-	                                                                                                                                        "positive "
-	                                                                                                                                        "[Pa].")
+																		"stresses of "
+																		"the contact "
+																		"points, "
+																		"tension "
+																		"positive "
+																		"[Pa].")
 																		VIEW_FIELD(
 																			result,
 																			pointTau,
@@ -613,14 +616,14 @@ void BlockModelPython::visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::
 																			tau,
 																			1,
 																			"Shear "
-	                                                                                                                                                "stress"
-	                                                                                                                                                "es of "
-	                                                                                                                                                "the "
-	                                                                                                                                                "contac"
-	                                                                                                                                                "t "
-	                                                                                                                                                "points"
-	                                                                                                                                                " [Pa]"
-	                                                                                                                                                ".")
+																			"stress"
+																			"es of "
+																			"the "
+																			"contac"
+																			"t "
+																			"points"
+																			" [Pa]"
+																			".")
 		.add_property(
 			"pointStatus",
 			py::make_function(+[](py::object self) -> py::object {
