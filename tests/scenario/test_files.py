@@ -17,7 +17,8 @@ def small(tmp_path):
 	"""A disk of 64 kB, where one can be mounted."""
 	disk = tmp_path / "disk"
 	disk.mkdir()
-	if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", disk], capture_output=True).returncode: pytest.skip("no right to mount a small disk")
+	if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", disk], capture_output=True).returncode:
+		pytest.skip("no right to mount a small disk")
 	yield disk
 	subprocess.run(["umount", disk], check=True)
 
@@ -33,18 +34,22 @@ def test_wholeOrNotAtAll(tmp_path):
 	files.replace(path, b"new")
 	assert path.read_text() == "new" and os.listdir(path.parent) == ["file"]
 	mask = os.umask(0o027)
-	try: files.replace(path, "")
-	finally: os.umask(mask)
+	try:
+		files.replace(path, "")
+	finally:
+		os.umask(mask)
 	assert path.stat().st_mode & 0o777 == 0o640 # as other programs' files
 
 
 def test_aFullDisk(small):
 	files.replace(small / "file", "old")
-	with pytest.raises(OSError) as full: files.replace(small / "file", b"x" * 100000)
+	with pytest.raises(OSError) as full:
+		files.replace(small / "file", b"x" * 100000)
 	assert full.value.errno == errno.ENOSPC and (small / "file").read_text() == "old" and os.listdir(small) == ["file"]
 	checkpoints = Checkpoints(small / "checkpoint", {})
 	checkpoints.write({"a": 1}, scene=False)
-	with pytest.raises(OSError): checkpoints.write({"a": "x" * 100000}, scene=False)
+	with pytest.raises(OSError):
+		checkpoints.write({"a": "x" * 100000}, scene=False)
 	assert checkpoints.newest() == {"a": 1} and os.listdir(small / "checkpoint") == ["000000"]
 
 
@@ -60,7 +65,8 @@ def test_linksAreNotFollowed(tmp_path, monkeypatch):
 	files.replace(Path("out/mine/file"), "ours")
 	assert Path("theirs/precious").read_text() == "precious" and Path("out/mine/file").read_text() == "ours"
 	Path("out/linked").symlink_to(tmp_path / "theirs")
-	with pytest.raises(OSError, match="out/linked is a symbolic link"): files.requireFolder(Path("out/linked"))
+	with pytest.raises(OSError, match="out/linked is a symbolic link"):
+		files.requireFolder(Path("out/linked"))
 	files.remove(Path("out/linked"))
 	assert Path("theirs/precious").exists() and not Path("out/linked").exists()
 
@@ -68,13 +74,15 @@ def test_linksAreNotFollowed(tmp_path, monkeypatch):
 def test_aFileWhereAFolderShouldBe(tmp_path, monkeypatch):
 	monkeypatch.chdir(tmp_path)
 	Path("out").write_text("")
-	with pytest.raises(OSError, match="^out is no folder$"): files.requireFolder(Path("out/tension"))
+	with pytest.raises(OSError, match="^out is no folder$"):
+		files.requireFolder(Path("out/tension"))
 
 
 def test_theLastTwoStay(tmp_path):
 	checkpoints = Checkpoints(tmp_path / "c", {"code": "a"})
 	assert checkpoints.newest() is None
-	for n in range(4): checkpoints.write({"n": n}, scene=False)
+	for n in range(4):
+		checkpoints.write({"n": n}, scene=False)
 	assert checkpoints.numbers() == [2, 3] and checkpoints.newest() == {"n": 3}
 	(tmp_path / "c" / ".x.part").mkdir() # of a process that was killed while it wrote
 	checkpoints.write({"n": 4}, scene=False)
@@ -101,5 +109,7 @@ def test_aDamagedCheckpointIsPassedOver(tmp_path, damage):
 def test_strangersAreRefused(tmp_path):
 	Checkpoints(tmp_path, {"code": "a", "keys": {"steps": 1, "seed": 1}}).write({}, scene=False)
 	assert Checkpoints(tmp_path, {"keys": {"seed": 1, "steps": 1}, "code": "a"}).newest() == {}
-	with pytest.raises(Stranger, match="^steps=1 instead of 2$"): Checkpoints(tmp_path, {"code": "a", "keys": {"steps": 2, "seed": 1}}).newest()
-	with pytest.raises(Stranger, match="^code$"): Checkpoints(tmp_path, {"code": "b", "keys": {"steps": 1, "seed": 1}}).newest()
+	with pytest.raises(Stranger, match="^steps=1 instead of 2$"):
+		Checkpoints(tmp_path, {"code": "a", "keys": {"steps": 2, "seed": 1}}).newest()
+	with pytest.raises(Stranger, match="^code$"):
+		Checkpoints(tmp_path, {"code": "b", "keys": {"steps": 1, "seed": 1}}).newest()

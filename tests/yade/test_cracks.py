@@ -133,10 +133,12 @@ def test_afterARescue(tmp_path):
 @pytest.mark.parametrize('room, events', [('4k', 'some'), ('full', 'none')])
 def test_fullDisk(tmp_path, room, events):
 	"""One line that says what is full; the lines that fit are whole, and all events are still there."""
-	if subprocess.run(['mount', '-t', 'tmpfs', '-o', 'size=4k', 'tmpfs', tmp_path], capture_output=True).returncode: pytest.skip('no right to mount a small disk')
+	if subprocess.run(['mount', '-t', 'tmpfs', '-o', 'size=4k', 'tmpfs', tmp_path], capture_output=True).returncode:
+		pytest.skip('no right to mount a small disk')
 	try:
 		if room == 'full': (tmp_path / 'filler').write_bytes(b'x' * 4096)
-		with pytest.raises(RuntimeError, match='BlockCrackRecorder.fileName: cannot write to .*cracks.txt: No space left on device'): recorded(tmp_path, 3000, size=2e-3)
+		with pytest.raises(RuntimeError, match='BlockCrackRecorder.fileName: cannot write to .*cracks.txt: No space left on device'):
+			recorded(tmp_path, 3000, size=2e-3)
 		recorder = O.engines[-1]
 		text = (tmp_path / 'cracks.txt').read_text()
 		if events == 'none': assert text == '' and O.iter < 2

@@ -239,7 +239,7 @@ def test_boundaryConditions(action, words):
 		(dict(dilationLimitSlip=nan), ['dilationLimitSlip']),
 		(dict(dilationAngle=0.25, frictionAngleResidual=0.125), ['dilationAngle', 'frictionAngleResidual', '0.25', '0.125']),
 		(dict(dilationAngle=0.75, frictionAngle=0.5), ['dilationAngle', 'frictionAngleResidual', '0.75', '0.5']),
-		 (dict(material1=''), ['material1', '""'])
+		(dict(material1=''), ['material1', '""'])
 	]
 )
 def test_jointProperties(change, words):
@@ -357,7 +357,8 @@ def test_decimalPointInEveryLocale(tmp_path):
 	"""Numbers in messages and files, in a language that writes 0,25."""
 	source = subprocess.run(['localedef', '-i', 'de_DE', '-f', 'UTF-8', str(tmp_path / 'de_DE.UTF-8')], capture_output=True, text=True)
 	if not (tmp_path / 'de_DE.UTF-8').exists(): pytest.skip('no locales to try: ' + source.stderr)
-	run = runYade("""
+	run = runYade(
+		"""
 from scenes import *
 import locale
 locale.setlocale(locale.LC_ALL, 'de_DE.UTF-8')
@@ -365,7 +366,8 @@ print('comma', locale.str(0.5))
 for wrong in -0.5, 1e-9, 0.1:
 	try: BlockModel(thickness=-abs(wrong))
 	except ValueError as error: print(error)
-""", cwd=tmp_path, env=dict(LOCPATH=str(tmp_path)))
+""", cwd=tmp_path, env=dict(LOCPATH=str(tmp_path))
+	)
 	assert 'comma 0,5' in run.stdout, run.stdout + run.stderr
 	for shown in 'got -0.5', 'got -1.0000000000000001e-09', 'got -0.10000000000000001':
 		assert shown in run.stdout, run.stdout + run.stderr

@@ -578,7 +578,8 @@ def test_rigidBlocksAreDrawnWithTheirHoles():
 @pytest.mark.parametrize('quasiStatic, said', [(False, True), (True, False)])
 def test_nothingLimitsTheTimeStep(tmp_path, quasiStatic, said):
 	"""A rigid block alone: O.dt stays YADE's 1e-8 s, which must not go unnoticed."""
-	run = runYade("""
+	run = runYade(
+		"""
 import yadeblocks
 from yade import *
 from yadeblocks.specimen import rectangle
@@ -589,6 +590,7 @@ model.insert()
 O.engines = [ForceResetter(), BlockTimeStepper(quasiStatic=%s), BlockForces(), NewtonIntegrator(), BlockIntegrator(rescueFile='')]
 O.run(5, True)
 print('dt', O.dt)
-""" % quasiStatic, cwd=tmp_path)
+""" % quasiStatic, cwd=tmp_path
+	)
 	assert 'dt 1e-08' in run.stdout and run.returncode == 0, run.stdout + run.stderr
 	assert ((run.stdout + run.stderr).count('nothing limits the time step') == 1) == said
