@@ -45,7 +45,7 @@ struct Driven {
 
 	void to(Real newUn, Real newUs)
 	{
-		const SofteningStep next = advance(p, s, now.joint, now.soft, newUn, newUs);
+		const SofteningStep next = advanceSoftening(p, s, now.joint, now.soft, newUn, newUs);
 		const Dissipated    d    = dissipated(p, s, now, un, us, next, newUn, newUs);
 		sum.opening += d.opening, sum.slip += d.slip, sum.friction += d.friction, sum.cap += d.cap;
 		least = std::min(least, d.opening + d.slip + d.friction + d.cap);
@@ -332,6 +332,23 @@ TEST(SofteningLaw, TensionAndShearShareOneScalar)
 	EXPECT_LE(peak, g * 0.87e6 + 0.2e6 * (0.73 + 0.28 * g));
 }
 
+// Every step obeys dk = sqrt((ft l1/GfI)^2 + (c l2/GfII)^2), to the roundings of openings of 1e-5 m, times ft/GfI and c/GfII.
+TEST(SofteningLaw, OpeningAndSlipAddAsSquares)
+{
+	Driven d = point();
+	int    both = 0;
+	for (int i = 1; i <= 1000; ++i) {
+		const SofteningStep before = d.now;
+		d.to(5e-8 * i, 1.2e-7 * i);
+		const Real l1 = d.now.soft.opening - before.soft.opening, l2 = d.now.joint.slipPlastic - before.joint.slipPlastic;
+		const Real a = 0.35e6 * l1 / 12, b = 0.87e6 * l2 / 60, dk = d.now.soft.k - before.soft.k;
+		if (d.now.soft.k >= softeningEnd) break;
+		ASSERT_NEAR(dk, std::sqrt(a * a + b * b), 1e-12);
+		both += a > 1e-4 && b > 1e-4;
+	}
+	EXPECT_GT(both, 100);
+}
+
 // tan(psi) = tan(psi0) <1 - p/sigma_u> e^(-delta s), so uplift = tan(psi0) <1 - p/sigma_u> (1 - e^(-delta s))/delta.
 TEST(SofteningLaw, DilatancyDecaysWithSlipAndPressure)
 {
@@ -355,6 +372,11 @@ TEST(SofteningLaw, DilatancyDecaysWithSlipAndPressure)
 		EXPECT_GE(d.least, -p.tanDilation * pressure * 1e-6); // uplift presses one step late
 		EXPECT_GT(d.total(), 0);
 	}
+	Driven open = point(p, s);
+	open.to(5e-6, 0, 50);
+	open.to(5e-6, 1e-4, 1000); // slip without pressure raises nothing
+	EXPECT_GT(open.now.joint.slipPlastic, 5e-5);
+	EXPECT_EQ(open.now.joint.uplift, 0);
 	p.dilationLimitSlip = 1e-4;
 	s.dilationDecay     = 0;
 	Driven d            = point(p, s);
@@ -414,7 +436,7 @@ TEST(SofteningLaw, ElasticMeansWhatItMeansForTheBrittleLaw)
 		if (i % 4 == 0) un = joint.uplift + p.tension / p.kn * (1 + (i % 7 - 3) * eps);
 		if (i % 4 == 1) us = joint.slipPlastic + (p.cohesion - p.kn * (un - joint.uplift) * p.tanPhi) / p.ks * (1 + (i % 7 - 3) * eps);
 		const JointStep     brittle = blocks::advance(p, joint, un, us);
-		const SofteningStep soft = blocks::advance(p, s, joint, {}, un, us), whole = blocks::soften(p, s, joint, {}, un, us);
+		const SofteningStep soft = advanceSoftening(p, s, joint, {}, un, us), whole = blocks::soften(p, s, joint, {}, un, us);
 		const bool          is = blocks::elastic(p, s, joint.status, p.kn * (un - joint.uplift), p.ks * (us - joint.slipPlastic));
 		ASSERT_EQ(is, brittle.state.status == Joint::intact);
 		ASSERT_EQ(soft.sigma, whole.sigma);
@@ -444,7 +466,7 @@ TEST(SofteningLaw, PartedIsBrokenOrDry)
 			const SofteningState soft { status == Joint::unbonded ? 0 : softeningEnd, status == Joint::unbonded ? 0 : 2e-6, 0, 0 };
 			const Real           un = unit(random) * 3e-6, us = unit(random) * 1e-5;
 			const JointStep      brittle = blocks::advance(p, old, un, us);
-			const SofteningStep  now     = blocks::advance(p, s, old, soft, un, us);
+			const SofteningStep  now     = advanceSoftening(p, s, old, soft, un, us);
 			ASSERT_EQ(now.sigma, brittle.sigma);
 			ASSERT_EQ(now.tau, brittle.tau);
 			ASSERT_EQ(now.joint.slipPlastic, brittle.state.slipPlastic);

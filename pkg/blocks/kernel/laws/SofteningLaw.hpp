@@ -89,7 +89,7 @@ inline bool elastic(const JointParams& p, const SofteningParams& s, Joint status
 SofteningStep soften(const JointParams&, const SofteningParams&, const JointState&, const SofteningState&, Real un, Real us);
 
 /// One step from the old state, for the opening un [m] and the slip us [m], both in total form.
-inline SofteningStep advance(const JointParams& p, const SofteningParams& s, const JointState& joint, const SofteningState& soft, Real un, Real us)
+inline SofteningStep advanceSoftening(const JointParams& p, const SofteningParams& s, const JointState& joint, const SofteningState& soft, Real un, Real us)
 {
 	const Real sigma = p.kn * (un - joint.uplift);
 	const Real tau   = p.ks * (us - joint.slipPlastic);
