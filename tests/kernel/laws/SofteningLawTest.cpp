@@ -623,6 +623,9 @@ TEST(SofteningLaw, RefusesImpossibleParameters)
 	}
 	EXPECT_NO_THROW(validate(mortar(), SofteningParams()));
 	EXPECT_NO_THROW(validate(mortar(), capped()));
+	SofteningParams within = softening();
+	within.energyI = 0.5, within.energyII = 6; // 0.61^2 + 0.63^2 = 0.77
+	EXPECT_NO_THROW(validate(mortar(), within));
 	SofteningParams just = softening(1);
 	just.energyI         = 1.01 * 0.35e6 * 0.35e6 / 400e9;
 	just.energyII        = 1e6 * 60;
