@@ -8,7 +8,7 @@
 /// The brittle Mohr-Coulomb joint of the paper (section 2.2, Eqs. 1-3), one contact point at a time.
 namespace blocks {
 
-enum class Joint : std::uint8_t { intact = 0, brokenInTension = 1, brokenInShear = 2, unbonded = 3 };
+enum class Joint : std::uint8_t { intact = 0, brokenInTension = 1, brokenInShear = 2, unbonded = 3, softening = 4 };
 
 /// Properties of a joint; strengths before and after it breaks.
 struct JointParams {
