@@ -20,7 +20,7 @@ import numpy as np
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import curves, experiments, loading, pictures, scenario
-from yadeblocks.engines import engineList
+from yadeblocks.engines import loopList
 from yadeblocks.export import State, writeStates
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
@@ -66,7 +66,12 @@ def build(seed):
 		if label == 'unit' and p.units == 'plain': model.addRegion(outline, label, zoneSize=size)
 		else: model.addVoronoi(outline, label, size=size, sizeMeaning=p.sizeMeaning, lloyd=p.lloyd, seed=1000 * seed + layer, mergeFraction=p.merge)
 		y += thick
-	model.bond()
+	joints = [
+		JointMat(material1='unit', material2='unit', **brickJoint),
+		JointMat(material1='mortar', material2='mortar', **mortarJoint),
+		JointMat(material1='unit', material2='mortar', **mortarJoint)
+	]
+	model.bond(joints)
 	bottom = nodesWhere(model, lambda x, y: y < 1e-9)
 	model.drive('bottom', bottom, 'y')
 	model.drive('centre', bottom[abs(model.reference[bottom, 0] - p.width / 2).argmin()], 'x') # keeps the prism from drifting sideways
@@ -100,16 +105,9 @@ def crush(stage, seed, steps):
 
 def begin(model, steps, floor, record):
 	"""The engines, and the way to the first crack."""
-	joints = [
-		JointMat(material1='unit', material2='unit', **brickJoint),
-		JointMat(material1='mortar', material2='mortar', **mortarJoint),
-		JointMat(material1='unit', material2='mortar', **mortarJoint)
-	]
 	servo = dict(groups=['platen'], floor=floor) if p.servo else None
 	O.dt = p.stroke / velocity / steps
-	O.engines = engineList( # broken joints may slide on, part and meet again
-		joints, contact=True, stepper=dict(safety=p.safety), servo=servo, damping=p.damping, alpha=p.alpha
-	)
+	O.engines = loopList(contact=True, servo=servo, damping=p.damping, alpha=p.alpha, safety=p.safety) # broken joints may slide on, part and meet again
 	O.run(1, True)
 	record()
 	if p.jump:

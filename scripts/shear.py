@@ -20,7 +20,7 @@ import numpy as np
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import curves, experiments, loading, pictures, scenario
-from yadeblocks.engines import engineList
+from yadeblocks.engines import loopList
 from yadeblocks.export import State, writeStates
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
@@ -68,7 +68,9 @@ def build(seed, dt):
 	for number, outline in enumerate((rectangle(0, 0, length, low), rectangle(0, high, length, high + brickHeight))):
 		if p.units == 'plain': model.addRegion(outline, 'unit', zoneSize=p.brickZone)
 		else: model.addVoronoi(outline, 'unit', size=p.brickZone, lloyd=3, seed=1000 * seed + number)
-	model.bond()
+	joints = [JointMat(material1=a, material2='mortar', **joint) for a in ('mortar', 'unit')]
+	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **brickJoint))
+	model.bond(joints)
 	top = nodesWhere(model, lambda x, y: y > high + brickHeight - 1e-9)
 	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
 	model.push('press', top, 'y', force=-p.sigma * area, rampTime=pressSteps * dt)
@@ -108,13 +110,9 @@ def shear(stage, seed, steps):
 
 def press(model, dt, floor):
 	"""The engines, the precompression, and the top edge set in motion."""
-	joints = [JointMat(material1=a, material2='mortar', **joint) for a in ('mortar', 'unit')]
-	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **brickJoint))
 	servo = dict(groups=['shear'], floor=floor) if p.servo else None
 	O.dt = dt
-	O.engines = engineList( # broken joints may slide on, part and meet again
-		joints, contact=True, stepper=dict(safety=p.safety), servo=servo, damping=p.damping, alpha=p.alpha
-	)
+	O.engines = loopList(contact=True, servo=servo, damping=p.damping, alpha=p.alpha, safety=p.safety) # broken joints may slide on, part and meet again
 	O.run(1, True)
 	if not p.jump: loading.settle(model, floor=floor)
 	model.setTarget('shear', velocity, rampTime=0 if p.jump else pressSteps * dt)

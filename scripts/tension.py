@@ -26,7 +26,7 @@ import numpy as np
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import curves, experiments, loading, pictures, scenario
-from yadeblocks.engines import engineList
+from yadeblocks.engines import loopList
 from yadeblocks.export import State, writeStates
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
@@ -75,7 +75,9 @@ def build(seed):
 	for number, outline in enumerate((rectangle(0, 0, length, low), rectangle(0, high, length, high + brickHeight))):
 		if p.units == 'plain': model.addRegion(outline, 'unit', zoneSize=p.brickZone)
 		else: model.addVoronoi(outline, 'unit', size=p.brickZone, lloyd=3, seed=1000 * seed + number)
-	model.bond()
+	joints = [JointMat(material1='mortar', material2='mortar', **mortarJoint), JointMat(material1='unit', material2='mortar', **unitJoint)]
+	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **brickJoint))
+	model.bond(joints)
 	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
 	model.drive('top', nodesWhere(model, lambda x, y: y > high + brickHeight - 1e-9), 'y', velocity=velocity, rampTime=0.05 * duration)
 	model.insert()
@@ -105,12 +107,8 @@ def pull(stage, seed, steps):
 
 def begin(model, steps, floor, record):
 	"""The engines, and the way to the first crack."""
-	joints = [JointMat(material1='mortar', material2='mortar', **mortarJoint), JointMat(material1='unit', material2='mortar', **unitJoint)]
-	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **brickJoint))
 	O.dt = duration / steps
-	O.engines = engineList(
-		joints, stepper=dict(safety=p.safety), servo=dict(groups=['top'], floor=floor) if p.servo else None, damping=p.damping, alpha=p.alpha
-	)
+	O.engines = loopList(servo=dict(groups=['top'], floor=floor) if p.servo else None, damping=p.damping, alpha=p.alpha, safety=p.safety)
 	O.run(1, True)
 	record()
 	if p.jump:

@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/kernel/analysis/Energy.hpp>
 #include <blocks/kernel/geometry/Zoning.hpp>
+#include <blocks/kernel/model/Fingerprint.hpp>
 #include <blocks/kernel/step/Joints.hpp>
 #include <blocks/kernel/step/ZoneForces.hpp>
 #include <blocks/python/ModelPython.hpp>
@@ -134,6 +135,13 @@ namespace {
 		return out;
 	}
 
+	string fingerprint(const BlockModel& m)
+	{
+		char text[17];
+		std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(blocks::fingerprint(m.assembly.state)));
+		return text;
+	}
+
 	int  blockCount(const BlockModel& m) { return m.assembly.blockCount(); }
 	int  nodeCount(const BlockModel& m) { return m.assembly.nodeCount(); }
 	int  zoneCount(const BlockModel& m) { return m.assembly.zoneCount(); }
@@ -167,6 +175,7 @@ void defineArrays(PythonModel& c)
 	             "points, counter-clockwise, shape (triangles, 3). A copy. "
 	             "Errors: ValueError for a block that is not there.")
 		.def("contactPositions", py::make_function(&contactPositions), "Positions of the contact points, shape (contact points, 2) [m]. A copy.")
+		.def("fingerprint", &fingerprint, "16 hexadecimal digits that are the same only for the same bits of the state: motion, joints, contacts, groups, accounts.")
 		.add_property("blockCount", &blockCount, "Number of blocks.")
 		.add_property("nodeCount", &nodeCount, "Number of grid points.")
 		.add_property("zoneCount", &zoneCount, "Number of zones.")

@@ -40,13 +40,13 @@ struct Driven {
 	SofteningParams s;
 	SofteningStep   now;
 	Real            un = 0, us = 0;
-	Dissipated      sum;
+	SofteningWork      sum;
 	Real            work = 0, least = 0, snaps = 0; ///< least: dissipated in one step [J/m2]
 
 	void to(Real newUn, Real newUs)
 	{
 		const SofteningStep next = advanceSoftening(p, s, now.joint, now.soft, newUn, newUs);
-		const Dissipated    d    = dissipated(p, s, now, un, us, next, newUn, newUs);
+		const SofteningWork    d    = dissipated(p, s, now, un, us, next, newUn, newUs);
 		sum.opening += d.opening, sum.slip += d.slip, sum.friction += d.friction, sum.cap += d.cap;
 		least = std::min(least, d.opening + d.slip + d.friction + d.cap);
 		work += (now.sigma + next.sigma) / 2 * (newUn - un) + (now.tau + next.tau) / 2 * (newUs - us);

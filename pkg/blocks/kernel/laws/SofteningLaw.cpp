@@ -264,7 +264,7 @@ Real storedEnergy(const JointParams& p, const SofteningParams& s, const Softenin
 	return (sigma * sigma * flexibility + tau * tau / p.ks) / 2;
 }
 
-Dissipated dissipated(
+SofteningWork dissipated(
 	const JointParams&     p,
 	const SofteningParams& s,
 	const SofteningStep&   before,
@@ -276,7 +276,7 @@ Dissipated dissipated(
 {
 	const Real work = (before.sigma + after.sigma) / 2 * (openingAfter - openingBefore) + (before.tau + after.tau) / 2 * (slipAfter - slipBefore);
 	Real       rest = work - (storedEnergy(p, s, after.soft, after.sigma, after.tau) - storedEnergy(p, s, before.soft, before.sigma, before.tau));
-	Dissipated d;
+	SofteningWork d;
 	const bool crushed = after.soft.crushing > before.soft.crushing;
 	const Real plastic = after.joint.slipPlastic - before.joint.slipPlastic;
 	if (plastic != 0) {

@@ -101,13 +101,13 @@ inline SofteningStep advanceSoftening(const JointParams& p, const SofteningParam
 Real storedEnergy(const JointParams&, const SofteningParams&, const SofteningState&, Real sigma, Real tau);
 
 /// What one step of a point turned into heat [J/m2]. The sum is the work done on it (by the mean of the stresses before and after) less what is stored.
-struct Dissipated {
+struct SofteningWork {
 	Real opening  = 0; ///< mode I: breaking of the bond by opening
 	Real slip     = 0; ///< mode II: breaking of the bond by slip, the share of the cohesion in the shear strength
 	Real friction = 0; ///< the rest of the slip's work, less dilation's work against the pressure
 	Real cap      = 0; ///< crushing
 };
-Dissipated dissipated(
+SofteningWork dissipated(
 	const JointParams&,
 	const SofteningParams&,
 	const SofteningStep& before,
