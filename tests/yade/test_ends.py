@@ -11,7 +11,7 @@ from processes import *
 
 @pytest.mark.parametrize('number, code', [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_anInterruptActsDuringTheLoading(number, code, tmp_path):
-	process = Process(tmp_path, 'tension', 'case=TT3', 'steps=2000000', 'seeds=2', 'vtk=false')
+	process = Process(tmp_path, 'tension', 'case=TT3', 'steps=20000000', 'seeds=2', 'vtk=false')
 	assert process.until(lambda: (tmp_path / 'out/tension').exists())
 	time.sleep(3) # it is loading
 	process.popen.send_signal(number)
@@ -27,7 +27,7 @@ def test_anInterruptActsDuringTheLoading(number, code, tmp_path):
 
 def test_whatIsDoneIsThere(tmp_path):
 	"""Interrupted in the second seed: the first one's results are on the disk, as they were all the time, and say that they are not all."""
-	process = Process(tmp_path, 'tension', 'case=TT3', 'alpha=0.3', 'steps=100000', 'seeds=3', 'vtk=false')
+	process = Process(tmp_path, 'tension', 'case=TT3', 'alpha=0.3', 'steps=1000000', 'seeds=3', 'vtk=false')
 	assert process.until((tmp_path / 'out/tension/curve.csv').exists)
 	early = result(tmp_path, 'tension') # whole as soon as it is there
 	process.popen.send_signal(signal.SIGINT)

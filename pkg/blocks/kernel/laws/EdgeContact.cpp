@@ -1,10 +1,8 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
+#include <blocks/kernel/Wide.hpp>
 #include <blocks/kernel/laws/EdgeContact.hpp>
 #include <limits>
-
-/// AVX2 has shorter code for the same arithmetic; without fused operations the bits are the same.
-#define WIDER __attribute__((target_clones("avx2", "default")))
 
 namespace blocks {
 namespace {
@@ -52,7 +50,7 @@ void lowerForces(const FourPoints& p, Real uplift, FourPoints& force)
 	force[1] += couple;
 }
 
-WIDER void edgeGeometry(const FourPoints& p, const EdgeShape& shape, EdgeGeometry& g)
+WIDE void edgeGeometry(const FourPoints& p, const EdgeShape& shape, EdgeGeometry& g)
 {
 	g.active       = false;
 	const Vec2 &a0 = p[0], &a1 = p[1], &b0 = p[2], &b1 = p[3];
@@ -118,7 +116,7 @@ WIDER void edgeGeometry(const FourPoints& p, const EdgeShape& shape, EdgeGeometr
 	g.active        = true;
 }
 
-WIDER Real freeDistance(const FourPoints& p, const EdgeShape& shape)
+WIDE Real freeDistance(const FourPoints& p, const EdgeShape& shape)
 {
 	const Vec2 &a0 = p[0], &a1 = p[1], &b0 = p[2], &b1 = p[3];
 	const Vec2  A = a1 - a0, B = b1 - b0;
@@ -156,7 +154,7 @@ WIDER Real freeDistance(const FourPoints& p, const EdgeShape& shape)
 
 Real edgePotential(const EdgeGeometry& g) { return g.c * g.c * g.length * g.sum * g.h / 4; }
 
-WIDER void addNormalForces(const FourPoints& p, const EdgeShape& shape, const EdgeGeometry& g, Real scale, FourPoints& force)
+WIDE void addNormalForces(const FourPoints& p, const EdgeShape& shape, const EdgeGeometry& g, Real scale, FourPoints& force)
 {
 	const Vec2 &a0 = p[0], &a1 = p[1], &b0 = p[2], &b1 = p[3];
 	const Real  w = scale * g.c * g.c / 4, wL = w * g.length;
@@ -213,7 +211,7 @@ WIDER void addNormalForces(const FourPoints& p, const EdgeShape& shape, const Ed
 	force[3] -= gb1 + coupleB;
 }
 
-WIDER EdgeEnd edgeEnd(const FourPoints& p, const EdgeGeometry& g, int k)
+WIDE EdgeEnd edgeEnd(const FourPoints& p, const EdgeGeometry& g, int k)
 {
 	const Vec2 &a0 = p[0], &a1 = p[1], &b0 = p[2], &b1 = p[3];
 	const Real  mu = g.mu[k];
