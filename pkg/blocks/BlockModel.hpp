@@ -17,6 +17,11 @@ struct BlockModelPython : py::def_visitor<BlockModelPython> {
 	void visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::bases<Serializable>, boost::noncopyable>&) const;
 };
 
+/// The methods that build it; the definitions stand in python/Building.cpp.
+struct BuildingPython : py::def_visitor<BuildingPython> {
+	void visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::bases<Serializable>, boost::noncopyable>&) const;
+};
+
 /// Owner of the scene's one assembly: builds it, shows it to Python, is saved with it.
 class BlockModel : public Serializable {
 public:
@@ -43,7 +48,10 @@ public:
 	void complain(const std::string& sentence);
 	void throwComplaint();
 
-	/// A material of O.materials, by its label; its index in the assembly.
+	/// A material of the assembly or of O.materials, by its label.
+	blocks::Material materialOf(const std::string& label) const;
+
+	/// Its index in the assembly, to which it is added if need be.
 	int materialIndex(const std::string& label);
 
 	/// Properties of a pair's joint, and whether it is whole; several threads may do this for different pairs.
@@ -79,6 +87,7 @@ public:
 		,
 		/*ctor*/,
 		/*py*/
+		.def(BuildingPython())
 		.def(BlockModelPython())
 	);
 	// clang-format on

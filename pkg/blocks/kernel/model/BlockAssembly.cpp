@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
+#include <blocks/kernel/geometry/Polygon.hpp>
 #include <blocks/kernel/model/BlockAssembly.hpp>
 #include <blocks/kernel/step/ContactKinematics.hpp>
 #include <numeric>
@@ -7,27 +8,13 @@
 namespace blocks {
 namespace {
 
-	struct Area {
-		Real size;     ///< [m2]
-		Vec2 centroid; ///< [m]
-		Real second;   ///< polar second moment about the centroid [m4]
-	};
-
-	/// The area to the left of closed lines, given as edges: triangles from the first point to every edge.
-	template <class Iterator> Area areaOf(const std::vector<Vec2>& points, Iterator begin, Iterator end)
+	/// What lies to the left of closed lines, given as edges.
+	template <class Iterator> AreaSum momentsOf(const std::vector<Vec2>& points, Iterator begin, Iterator end)
 	{
-		const Vec2 apex = points[(*begin)[0]];
-		Real       size = 0, second = 0;
-		Vec2       first = Vec2::Zero();
-		for (; begin != end; ++begin) {
-			const Vec2 p = points[(*begin)[0]] - apex, q = points[(*begin)[1]] - apex;
-			const Real area = cross(p, q) / 2;
-			size += area;
-			first += area * (p + q) / 3;
-			second += area * (p.squaredNorm() + q.squaredNorm() + p.dot(q)) / 6;
-		}
-		const Vec2 centroid = first / size;
-		return { size, apex + centroid, second - size * centroid.squaredNorm() };
+		AreaSum sum(points[(*begin)[0]]);
+		for (; begin != end; ++begin)
+			sum.add(points[(*begin)[0]], points[(*begin)[1]]);
+		return sum;
 	}
 
 } // namespace
@@ -82,12 +69,12 @@ int BlockAssembly::addBlock(
 		for (const auto& ring : rings)
 			for (size_t i = 0; i < ring.size(); ++i)
 				edges.push_back({ ring[i], ring[(i + 1) % ring.size()] });
-		const Area area = areaOf(points, edges.begin(), edges.end());
-		require(area.size > 0, "a rigid block's holes must be smaller than itself; area [m2]", area.size);
+		const AreaSum sum = momentsOf(points, edges.begin(), edges.end());
+		require(sum.area() > 0, "a rigid block's holes must be smaller than itself; area [m2]", sum.area());
 		rigidBlock.block  = blockCount();
-		rigidBlock.origin = rigidBlock.centre = area.centroid;
-		rigidBlock.mass = rigidBlock.inertia = area.size * thickness * materials[material].density;
-		rigidBlock.moment = rigidBlock.rotaryInertia = area.second * thickness * materials[material].density;
+		rigidBlock.origin = rigidBlock.centre = sum.centroid();
+		rigidBlock.mass = rigidBlock.inertia = sum.area() * thickness * materials[material].density;
+		rigidBlock.moment = rigidBlock.rotaryInertia = sum.secondMoment() * thickness * materials[material].density;
 	}
 
 	// everything is as it should be: from here on nothing can fail half-way
@@ -122,7 +109,7 @@ int BlockAssembly::blockOfNode(int node) const { return int(std::upper_bound(fir
 Vec2 BlockAssembly::centroid(int block) const
 {
 	if (firstZone[block] == firstZone[block + 1])
-		return areaOf(position, edgeNodes.begin() + firstEdge[block], edgeNodes.begin() + firstEdge[block + 1]).centroid;
+		return momentsOf(position, edgeNodes.begin() + firstEdge[block], edgeNodes.begin() + firstEdge[block + 1]).centroid();
 	Vec2 sum   = Vec2::Zero();
 	Real total = 0;
 	for (int n = firstNode[block]; n < firstNode[block + 1]; ++n) {
@@ -130,6 +117,17 @@ Vec2 BlockAssembly::centroid(int block) const
 		total += mass[n];
 	}
 	return position[firstNode[block]] + sum / total;
+}
+
+Polygon BlockAssembly::outline(int block) const
+{
+	std::vector<Ring> rings;
+	for (int e = firstEdge[block], first = -1; e < firstEdge[block + 1]; ++e) {
+		if (first < 0) rings.emplace_back(), first = edgeNodes[e][0];
+		rings.back().push_back(position[edgeNodes[e][0]]);
+		if (edgeNodes[e][1] == first) first = -1;
+	}
+	return { rings[0], { rings.begin() + 1, rings.end() } };
 }
 
 void BlockAssembly::bond(std::vector<Segment> found)

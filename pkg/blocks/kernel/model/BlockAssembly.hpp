@@ -102,6 +102,9 @@ struct BlockAssembly {
 	int  blockOfNode(int node) const;
 	Vec2 centroid(int block) const; ///< of the block's present mass [m]
 
+	/// A block's present outline, with its holes [m].
+	Polygon outline(int block) const;
+
 	/// Checks and stores a material; its index.
 	int addMaterial(const Material&);
 
