@@ -2,6 +2,7 @@
 #include "BlockModel.hpp"
 #include "BlockGeom.hpp"
 #include <algorithm>
+#include <blocks/kernel/geometry/Polygon.hpp>
 #include <blocks/kernel/step/TimeStep.hpp>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>

@@ -14,7 +14,9 @@
 #include <blocks/kernel/model/ContactDetection.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
+#include <functional>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -148,7 +150,7 @@ void addHoles(Dice& dice, Polygon& region)
 		const Real radius = scale * std::exp(dice(std::log(1e-3), std::log(0.4)));
 		more.holes.push_back(reversed(star(dice, centre, radius / 2, radius, 3 + dice.below(5))));
 		if (dice.chance(0.3)) { // a neighbour a little apart
-			const Real gap    = radius * std::exp(dice(std::log(1e-9), std::log(0.1)));
+			const Real gap    = radius * std::exp(dice(std::log(1e-6), std::log(0.1)));
 			more.holes.back() = reversed(rectangle(centre.x(), centre.y(), centre.x() + radius, centre.y() + radius));
 			more.holes.push_back(reversed(rectangle(centre.x() + radius + gap, centre.y(), centre.x() + 2 * radius, centre.y() + radius / 2)));
 		}
@@ -320,6 +322,14 @@ struct Tally {
 	long                        cells = 0, tessellations = 0, regions = 0;
 };
 
+/// The refusal without its numbers.
+std::string kindOf(const std::string& refusal)
+{
+	std::string text = refusal.substr(0, refusal.find(", got"));
+	text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return std::isdigit(c) || c == '.'; }), text.end());
+	return text;
+}
+
 void checkTessellation(const Case& c, Tally& tally)
 {
 	const Cells cells = tessellate(c.region, c.options);
@@ -387,7 +397,7 @@ void checkRegions(const Case& c, Dice& dice, Tally& tally)
 				|| (zoning == Zoning::regular
 			            && (text.find("must be a rectangle") != std::string::npos || text.find("no place for holes") != std::string::npos));
 			check(fits, name + " is refused: " + text);
-			++tally.refusals[text.substr(0, text.find(", got"))];
+			++tally.refusals[kindOf(text)];
 		}
 	}
 	const Real touching = 1e-6 * meanWidth(c.region) + 64 * std::numeric_limits<Real>::epsilon() * largestCoordinate(c.region);
@@ -401,7 +411,7 @@ void checkRegions(const Case& c, Dice& dice, Tally& tally)
 
 bool explained(const std::string& refusal)
 {
-	for (const char* words : { "must be distinct", "must be farther apart", "must lie inside the region" })
+	for (const char* words : { "edges must be farther apart", "must be distinct", "must be farther apart", "must lie inside the region" })
 		if (refusal.find(words) != std::string::npos) return true;
 	return false;
 }
@@ -457,7 +467,7 @@ int main(int argc, char** argv)
 			report(failure.what);
 		} catch (const std::invalid_argument& error) {
 			if (explained(error.what()))
-				++tally.refusals[std::string(error.what()).substr(0, std::string(error.what()).find(", got"))];
+				++tally.refusals[kindOf(error.what())];
 			else
 				report(error.what());
 		} catch (const std::exception& error) {

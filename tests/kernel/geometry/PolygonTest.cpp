@@ -47,7 +47,7 @@ TEST(Polygon, InsideAndDistance)
 	EXPECT_FALSE(strictlyInside({ 0, 1 }, frame));
 	EXPECT_FALSE(strictlyInside({ 3.5, 1 }, frame));
 	EXPECT_EQ(distanceFromOutline({ 0.25, 1 }, frame), 0.25);
-	EXPECT_EQ(distanceFromOutline({ 0.7, 1 }, frame), 0.3);
+	EXPECT_EQ(distanceFromOutline({ 0.75, 1 }, frame), 0.25);
 	EXPECT_EQ(distanceFromOutline({ -3, -4 }, frame), 5);
 }
 

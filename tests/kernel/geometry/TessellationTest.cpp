@@ -52,14 +52,6 @@ std::vector<Ring> ringsOf(const Polygon& region)
 	return rings;
 }
 
-Real largestCoordinate(const Polygon& region)
-{
-	Real largest = 0;
-	for (const Vec2& p : region.outer)
-		largest = std::max(largest, p.cwiseAbs().maxCoeff());
-	return largest;
-}
-
 Real perimeterOf(const Polygon& region)
 {
 	Real length = 0;

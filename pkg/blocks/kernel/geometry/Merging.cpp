@@ -43,7 +43,7 @@ namespace {
 				queueEdges(int(c));
 			mergeEdges();
 			for (size_t c = 0; c < cells.size(); ++c) // cells added by divide() have their turn too
-				while (trim(int(c)) || shorten(int(c)) || divide(int(c))) { }
+				while (trim(int(c)) || shorten(int(c)) || divide(int(c)) || divideAtEdge(int(c))) { }
 			mergeEdges();
 			for (size_t c = 0; c < cells.size(); ++c)
 				if (!cells[c].empty() && thin(int(c))) flatten(int(c));
@@ -333,7 +333,43 @@ namespace {
 			return false;
 		}
 
-		/// Moves the cell's other nodes onto its base; the cell vanishes and its neighbour beyond the base (if any) takes the nodes over.
+		/// The same where the other side of a neck of no width is an edge: the corner becomes a vertex of the neighbour beyond it.
+		bool divideAtEdge(int cell)
+		{
+			const IntRing ring = cells[cell];
+			const size_t  n    = ring.size();
+			for (size_t k = 0; k < n; ++k)
+				for (size_t m = 2; m + 2 < n; ++m) { // edges from the m-th node after the corner to the next
+					const int corner = ring[k], a = ring[(k + m) % n], b = ring[(k + m + 1) % n];
+					if (d.place[corner].kind != Place::corner) break;
+					const Vec2 along = d.position[b] - d.position[a], p = d.position[corner] - d.position[a];
+					if (p.dot(along) <= 0 || p.dot(along) >= along.squaredNorm()) continue;
+					const Real width = std::abs(cross(along, p)) / along.norm();
+					if (width > tolerance) continue; // wider ones are cells like others
+					for (int beyond : around[a]) {
+						if (beyond == cell || !adjacent(cells[beyond], a, b)
+						    || std::count(cells[beyond].begin(), cells[beyond].end(), corner))
+							continue;
+						changed.clear();
+						IntRing& other = changed[beyond] = cells[beyond];
+						other.insert(std::find(other.begin(), other.end(), b) + 1, corner); // it runs from b to a
+						IntRing turned = ring;                                              // from the corner on
+						std::rotate(turned.begin(), turned.begin() + k, turned.end());
+						changed[cell] = IntRing(turned.begin(), turned.begin() + m + 1);
+						IntRing& rest = changed[int(cells.size())];
+						rest          = IntRing(turned.begin() + m, turned.end());
+						rest.front()  = corner;
+						cells.emplace_back();
+						if (acceptChanges(width <= tolerance)) return true;
+						cells.pop_back();
+						break;
+					}
+				}
+			return false;
+		}
+
+		/// Moves the cell's other nodes onto its base; the cell vanishes and its neighbour beyond the base (if any) takes the nodes over. Nodes of the
+		/// region's outline cannot move; the neighbour takes them over where they are.
 		void flatten(int cell)
 		{
 			IntRing ring = cells[cell];
@@ -350,20 +386,22 @@ namespace {
 			const Vec2        start = d.position[a], base = d.position[b] - start;
 			std::vector<Vec2> old;
 			bool              possible = true;
+			const auto        moves    = [&](int node) { return d.place[node].kind == Place::inside; };
 			Real              last     = 1; // the others follow b, going back to a
 			for (size_t k = 2; k < ring.size(); ++k) {
 				const Real along = (d.position[ring[k]] - start).dot(base) / base.squaredNorm();
-				possible         = possible && d.place[ring[k]].kind == Place::inside && along < last && along > 0;
+				possible         = possible && (moves(ring[k]) || wall < 0) && along < last && along > 0;
 				last             = along;
 			}
 			if (!possible) return;
+			std::vector<Place> places;
 			changed.clear();
 			for (size_t k = 2; k < ring.size(); ++k) {
-				Vec2& position = d.position[ring[k]];
-				old.push_back(position);
-				position = start + (position - start).dot(base) / base.squaredNorm() * base;
-				if (wall >= 0 && walls.along(wall).x() == 0) position.x() = walls.corner[wall].x();
-				if (wall >= 0 && walls.along(wall).y() == 0) position.y() = walls.corner[wall].y();
+				const int  node     = ring[k];
+				const Vec2 position = d.position[node];
+				old.push_back(position), places.push_back(d.place[node]);
+				if (moves(node)) d.position[node] = start + (position - start).dot(base) / base.squaredNorm() * base;
+				if (wall >= 0) moveToWall(node, d.position[node], wall);
 				for (int c : around[ring[k]])
 					changed[c] = cells[c];
 			}
@@ -379,15 +417,12 @@ namespace {
 				std::set<int> distinct(other.begin(), other.end());
 				possible = distinct.size() == other.size();
 			}
-			if (wall >= 0)
-				for (size_t k = 2; k < ring.size(); ++k)
-					d.place[ring[k]] = { Place::onWall, wall };
 			for (int node : ring)
 				dissolve(node);
 			if (possible && acceptChanges()) return;
 			for (size_t k = 2; k < ring.size(); ++k) {
 				d.position[ring[k]] = old[k - 2];
-				d.place[ring[k]]    = { Place::inside, -1 };
+				d.place[ring[k]]    = places[k - 2];
 			}
 		}
 
