@@ -414,7 +414,9 @@ TEST(RegionZones, divideTheOutlineInEveryZoning)
 		const Zones zones = regionZones({ brick, {} }, zoning, 0.1);
 		expectMesh(brick, zones, "zoning " + std::to_string(int(zoning)));
 		EXPECT_EQ(zones.rings[0].size(), 30u + 5 + 1 + 5); // 0.45, 0.1, 0.45 above
-		if (zoning == Zoning::delaunay || zoning == Zoning::regular) EXPECT_LT(quality(zones).worstAspect, 2.5);
+		if (zoning == Zoning::delaunay || zoning == Zoning::regular) {
+			EXPECT_LT(quality(zones).worstAspect, 2.5);
+		}
 	}
 }
 
