@@ -1,16 +1,18 @@
 // yade-blocks, GPL-2.0-or-later
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <blocks/kernel/geometry/Polygon.hpp>
 #include <blocks/kernel/model/ContactDetection.hpp>
 #include <blocks/kernel/step/TimeStep.hpp>
 #include <blocks/views/BlockModel.hpp>
 #include <blocks/views/BlockState.hpp>
 #include <blocks/views/JointPhys.hpp>
+#include <blocks/views/Materials.hpp>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
 #include <core/Interaction.hpp>
 #include <core/InteractionContainer.hpp>
 #include <core/Omega.hpp>
+#include <limits>
 
 namespace yade {
 
@@ -67,94 +69,38 @@ void BlockModel::throwComplaint()
 	throw std::runtime_error(sentence);
 }
 
-int BlockModel::materialIndex(const std::string& label)
+blocks::Material materialOf(const BlockModel& model, const std::string& label)
 {
-	const auto known = std::find(materialLabels.begin(), materialLabels.end(), label);
-	if (known != materialLabels.end()) return int(known - materialLabels.begin());
+	const auto known = std::find(model.materialLabels.begin(), model.materialLabels.end(), label);
+	if (known != model.materialLabels.end()) return model.assembly.mesh.materials[known - model.materialLabels.begin()];
 
 	for (const auto& material : Omega::instance().getScene()->materials)
 		if (material->label == label) {
 			const auto* mat = dynamic_cast<const BlockMat*>(material.get());
 			if (!mat) throw std::invalid_argument("material \"" + label + "\" must be a BlockMat, got " + material->getClassName());
-			const int index = assembly.addMaterial({ mat->young, mat->poisson, mat->density });
-			materialLabels.push_back(label);
-			return index;
+			return { mat->young, mat->poisson, mat->density };
 		}
 	throw std::invalid_argument("no material labelled \"" + label + "\" in O.materials: append a BlockMat(label=\"" + label + "\", ...) first");
 }
 
-namespace {
-	/// Whether a point is strictly inside a ring, by the number of edges to its right.
-	bool inside(const blocks::Vec2& p, const blocks::Ring& ring)
-	{
-		bool odd = false;
-		for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
-			if ((ring[i].y() > p.y()) != (ring[j].y() > p.y())
-			    && p.x() < ring[i].x() + (p.y() - ring[i].y()) / (ring[j].y() - ring[i].y()) * (ring[j].x() - ring[i].x()))
-				odd = !odd;
-		return odd;
-	}
-
-	/// Whether p is inside a polygon and farther from its outline than `reach`.
-	bool strictlyInside(const blocks::Vec2& p, const blocks::Polygon& polygon, Real reach)
-	{
-		bool in = inside(p, polygon.outer), near = false;
-		for (const auto& hole : polygon.holes)
-			in = in && !inside(p, hole);
-		auto look = [&](const blocks::Ring& ring) {
-			for (size_t i = 0; i < ring.size(); ++i) {
-				const blocks::Vec2 a = ring[i], along = ring[(i + 1) % ring.size()] - a;
-				const Real         s = std::clamp((p - a).dot(along) / along.squaredNorm(), Real(0), Real(1));
-				near                 = near || (p - a - s * along).norm() <= reach;
-			}
-		};
-		if (in) look(polygon.outer);
-		if (in)
-			for (const auto& hole : polygon.holes)
-				look(hole);
-		return in && !near;
-	}
-
-	/// Whether a piece of a's outline, cut where the two outlines meet, lies inside b.
-	bool enters(const blocks::Polygon& a, const blocks::Polygon& b, Real reach)
-	{
-		vector<const blocks::Ring*> outlines { &b.outer };
-		for (const auto& hole : b.holes)
-			outlines.push_back(&hole);
-		for (size_t i = 0; i < a.outer.size(); ++i) {
-			const blocks::Vec2 p = a.outer[i], along = a.outer[(i + 1) % a.outer.size()] - p;
-			vector<Real>       cuts { 0, 1 };
-			for (const auto* ring : outlines)
-				for (size_t j = 0; j < ring->size(); ++j) {
-					const blocks::Vec2 q = (*ring)[j], other = (*ring)[(j + 1) % ring->size()] - q;
-					const Real         det = blocks::cross(along, other);
-					if (det != 0) cuts.push_back(blocks::cross(q - p, other) / det);
-					cuts.push_back((q - p).dot(along) / along.squaredNorm()); // vertices on collinear edges
-				}
-			std::sort(cuts.begin(), cuts.end());
-			for (size_t k = 1; k < cuts.size(); ++k) {
-				const Real middle = (cuts[k - 1] + cuts[k]) / 2;
-				if (cuts[k - 1] >= 0 && cuts[k] <= 1 && cuts[k] > cuts[k - 1] && strictlyInside(p + middle * along, b, reach)) return true;
-			}
-		}
-		return false;
-	}
+int BlockModel::materialIndex(const std::string& label)
+{
+	const auto known = std::find(materialLabels.begin(), materialLabels.end(), label);
+	if (known != materialLabels.end()) return int(known - materialLabels.begin());
+	const int index = assembly.addMaterial(materialOf(*this, label));
+	materialLabels.push_back(label);
+	return index;
 }
 
 void BlockModel::requireFree(const blocks::Polygon& region) const
 {
-	using Box  = Eigen::AlignedBox<Real, 2>;
-	auto boxOf = [](const blocks::Polygon& polygon) {
-		Box box;
-		for (const auto& p : polygon.outer)
-			box.extend(p);
-		return box;
-	};
-	const Box  box   = boxOf(region);
-	const Real reach = 1e-6 * box.diagonal().norm(); // as near as that is touching
-	for (size_t i = 0; i < regions.size(); ++i)
-		if (box.intersects(boxOf(regions[i])) && (enters(region, regions[i], reach) || enters(regions[i], region, reach)))
+	for (size_t i = 0; i < regions.size(); ++i) {
+		const blocks::Polygon& other    = regions[i];
+		const Real             rounding = 16 * std::numeric_limits<Real>::epsilon() * blocks::largestCoordinate(region);
+		const Real             touching = 1e-6 * std::min(blocks::meanWidth(region), blocks::meanWidth(other)) + rounding; // as near as that
+		if (blocks::overlapDepth(region, other) > touching)
 			throw std::invalid_argument("regions must not overlap: the new one overlaps region " + std::to_string(i) + " (the first is 0)");
+	}
 }
 
 void BlockModel::requireOpen(const char* what) const
@@ -224,7 +170,7 @@ void BlockModel::requireProperties()
 				"the joint between blocks " + std::to_string(joints.segments[i].block[0]) + " and "
 				+ std::to_string(joints.segments[i].block[1])
 				+ " has no properties: give JointMats to BlockModel.bond(), or use an InteractionLoop with Ip2_BlockMat_BlockMat_JointPhys and "
-			          "BlockForces");
+				  "BlockForces");
 	propertiesKnown = version;
 }
 
@@ -240,7 +186,7 @@ void BlockModel::writeCentroids(Scene* scene)
 {
 	for (int i = 0; i < assembly.blockCount(); ++i) {
 		if (assembly.isRigid(i)) continue; // it was the body that moved
-		const auto& body = (*scene->bodies)[firstBody + i];
+		const auto&        body     = (*scene->bodies)[firstBody + i];
 		const blocks::Vec2 centroid = assembly.centroid(i);
 		body->state->pos            = Vector3r(centroid.x(), centroid.y(), 0);
 	}

@@ -52,14 +52,6 @@ std::vector<Ring> ringsOf(const Polygon& region)
 	return rings;
 }
 
-Real largestCoordinate(const Polygon& region)
-{
-	Real largest = 0;
-	for (const Vec2& p : region.outer)
-		largest = std::max(largest, p.cwiseAbs().maxCoeff());
-	return largest;
-}
-
 Real perimeterOf(const Polygon& region)
 {
 	Real length = 0;
@@ -343,6 +335,39 @@ TEST(Tessellation, gridInDegenerateRegions)
 	EXPECT_EQ(tessellate(solid(rectangle(0, 0, 3, 1)), o).cells.size(), 1u);
 	o.seeds = { { 2, 0.5 }, { 0.5, 0.5 }, { 0.5, 1.5 }, { 1.5, 0.5 }, { 1, 0.25 } };
 	expectTiling(solid(lShape), tessellate(solid(lShape), o), 1, "seeds around the reflex corner");
+}
+
+// Walls along the bisector of two seeds, on both sides of the neck between their cells.
+TEST(Tessellation, wallsAlongBisectors)
+{
+	const Ring tee = { { 0, 0 }, { 3, 0 }, { 3, 1 }, { 2, 1 }, { 2, 2 }, { 1, 2 }, { 1, 1 }, { 0, 1 } };
+	auto       o   = sized(1, 0);
+	o.seeds        = { { 1.5, 0.5 }, { 1.5, 1.5 } };
+	for (int turn = 0; turn < 4; ++turn) { // each way: ties are decided by a shift to the upper right
+		const auto turned = [&](const Vec2& p) { return turn == 0 ? p : turn == 1 ? Vec2(-p.y(), p.x()) : turn == 2 ? Vec2(-p) : Vec2(p.y(), -p.x()); };
+		Ring       region;
+		auto       seeds = o;
+		for (const Vec2& p : tee)
+			region.push_back(turned(p));
+		for (Vec2& p : seeds.seeds)
+			p = turned(p);
+		const Cells cells = tessellate(solid(region), seeds);
+		expectTiling(solid(region), cells, 1, "T, turn " + std::to_string(turn));
+		ASSERT_EQ(cells.cells.size(), 2u);
+		Real areas[] = { signedArea(ringOf(cells, 0)), signedArea(ringOf(cells, 1)) };
+		std::sort(areas, areas + 2);
+		EXPECT_EQ(areas[0], 1);
+		EXPECT_EQ(areas[1], 3);
+	}
+}
+
+// The hole's lowest side is the base of a thin cell; the cell round the hole's other side meets both of its ends, and is not beyond it.
+TEST(Tessellation, holesStayEmpty)
+{
+	const Polygon region { rectangle(0, 0, 1, 1), { reversed({ { 0.4, 0.412 }, { 0.516, 0.412 }, { 0.516, 0.66 } }) } };
+	auto          o = sized(0.541, 0);
+	o.seeds         = { { 0.165, 0.12 }, { 0.432, 0.801 }, { 0.903, 0.328 } };
+	expectTiling(region, tessellate(region, o), 0.541, "a hole");
 }
 
 TEST(Tessellation, knownDiagramOfTwoSeeds)

@@ -210,8 +210,17 @@ TEST(RegularZones, keepFurtherVertices)
 	const Ring  brick = withPointsOnEdges(rectangle(0, 0, 2, 1), { { 0.33, 0 }, { 0.81, 0 }, { 1.4, 0 }, { 2, 0.4 } }, 1e-9);
 	const Zones zones = regularZones(brick, 0.25);
 	expectMesh(brick, zones, "brick with mortar's vertices");
-	EXPECT_EQ(zones.rings[0].size(), brick.size());
-	EXPECT_GT(zones.points.size(), brick.size());
+	// 0.33, 0.48, 0.59, 0.6 | 0.4, 0.6 | 2 | 1 in pieces of 0.25 at most
+	EXPECT_EQ(zones.rings[0].size(), 2u + 2 + 3 + 3 + 2 + 3 + 8 + 4);
+	EXPECT_LT(quality(zones).worstAspect, 4);
+
+	// A neighbour's vertices at the grid's own places leave it a grid, and keep their bits.
+	const Vec2  nearly(0.5 + 1e-13, 0);
+	const Ring  met   = withPointsOnEdges(rectangle(0, 0, 2, 1), { nearly, { 2, 0.25 }, { 1.75, 1 } }, 1e-9);
+	const Zones plain = regularZones(met, 0.25);
+	expectMesh(met, plain, "brick with a neighbour of the same grid");
+	EXPECT_EQ(plain.triangles.size(), 2u * 8 * 4);
+	EXPECT_EQ(plain.points[2], nearly);
 }
 
 TEST(DelaunayZones, meshAllKindsOfBlocks)
@@ -393,8 +402,49 @@ TEST(Zones, refuseBadInput)
 	}
 	expectRefused([&] { delaunayZones(pentagon, 1e-6); }, { "delaunayZones: zoneSize", "too many" });
 	expectRefused([&] { regularZones({ { 0, 0 }, { 1, 0 }, { 0, 1 } }, 1); }, { "regularZones", "rectangle", "got 3" });
+	expectRefused([&] { regularZones(lShape, 1); }, { "regularZones", "rectangle", "got 6" });
 	expectRefused([&] { regularZones({ { 0, 0 }, { 1, 0 }, { 1.1, 1 }, { 0, 1 } }, 1); }, { "regularZones", "rectangle" });
 	expectRefused([&] { regularZones({ { 0, 0 }, { 1, 0 }, { 1.2, 1 }, { 0.2, 1 } }, 1); }, { "regularZones", "rectangle" }); // a parallelogram
+}
+
+TEST(RegionZones, divideTheOutlineInEveryZoning)
+{
+	const Ring brick = withPointsOnEdges(rectangle(0, 0, 1, 1), { { 0.45, 1 }, { 0.55, 1 } }, 1e-9);
+	for (Zoning zoning : { Zoning::delaunay, Zoning::regular, Zoning::fan, Zoning::corners }) {
+		const Zones zones = regionZones({ brick, {} }, zoning, 0.1);
+		expectMesh(brick, zones, "zoning " + std::to_string(int(zoning)));
+		EXPECT_EQ(zones.rings[0].size(), 30u + 5 + 1 + 5); // 0.45, 0.1, 0.45 above
+		if (zoning == Zoning::delaunay || zoning == Zoning::regular) {
+			EXPECT_LT(quality(zones).worstAspect, 2.5);
+		}
+	}
+}
+
+TEST(RegionZones, honourHolesOrRefuse)
+{
+	const Polygon frame { rectangle(0, 0, 1, 1), { reversed(rectangle(0.4, 0.4, 0.6, 0.6)) } };
+	for (Zoning zoning : { Zoning::delaunay, Zoning::corners })
+		expectMesh(frame, regionZones(frame, zoning, 0.1), "zoning " + std::to_string(int(zoning)));
+	for (Zoning zoning : { Zoning::fan, Zoning::regular })
+		expectRefused([&] { regionZones(frame, zoning, 0.1); }, { "holes", "delaunay", "got 1" });
+	for (Zoning zoning : { Zoning::delaunay, Zoning::corners, Zoning::fan, Zoning::regular })
+		expectRefused([&] { regionZones({ rectangle(0, 0, 1, 1), {} }, zoning, 0); }, { "zoneSize", "positive", "got 0" });
+}
+
+TEST(CellZones, takeAnotherZoningWhereAFanDoesNotSuit)
+{
+	const CellZones round = cellZones(pentagon, Zoning::fan);
+	EXPECT_EQ(round.zoning, Zoning::fan);
+	EXPECT_EQ(cellZones(pentagon, Zoning::corners).zoning, Zoning::corners);
+	const CellZones u = cellZones(hook, Zoning::fan); // no point sees all of it
+	EXPECT_NE(u.zoning, Zoning::fan);
+	expectMesh(hook, u.zones, "hook");
+	// The fan's point would be in the small square that sees both arms, near (0.005, 0.005): zones as flat as 1 by 0.005.
+	const Ring thinL = { { 0, 0 }, { 1, 0 }, { 1, 0.01 }, { 0.01, 0.01 }, { 0.01, 1 }, { 0, 1 } };
+	EXPECT_GT(quality(fanZones(thinL)).worstAspect, 100);
+	const CellZones l = cellZones(thinL, Zoning::fan);
+	expectMesh(thinL, l.zones, "thin L");
+	EXPECT_LE(quality(l.zones).worstAspect, quality(fanZones(thinL)).worstAspect);
 }
 
 // Mutations tried on Zoning.cpp, each noticed by at least one test: a factor in the fan's centroid; the kernel without its

@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <Specimens.hpp>
+#include <numeric>
 
 using namespace specimens;
 
@@ -212,6 +213,42 @@ TEST(ContactDetection, RefusesBlocksThatPenetrate)
 	addGrid(same, { 0, 0 }, 1, 1, 2, 1);
 	addGrid(same, { 0, 0 }, 1, 1, 1, 1);
 	expectRefusal([&] { detectSegments(same); }, { "blocks 0 and 1 overlap" });
+}
+
+TEST(ContactDetection, ThinBlocksAreNotTheirNeighbours)
+{
+	// A millionth as thick as long: the tolerance for touching must not reach through it. Two joints, 1 m long each.
+	BlockAssembly a;
+	a.addMaterial(stone());
+	addGrid(a, { 0, -1 }, 1, 1, 2, 2);
+	addGrid(a, { 0, 0 }, 1, 1e-6, 3, 1);
+	addGrid(a, { 0, 1e-6 }, 1, 1, 2, 2);
+	const auto found = detectSegments(a);
+	for (const Segment& g : found)
+		EXPECT_EQ(g.block[1], g.block[0] + 1);
+	EXPECT_NEAR(totalArea(found), 2 * a.thickness, 1e-6);
+}
+
+TEST(ContactDetection, RefusesABlockWithinAnother)
+{
+	const auto within = [](const Ring& outer, const Ring& inner, bool innerFirst) {
+		BlockAssembly a;
+		a.addMaterial(stone());
+		for (const Ring& ring : innerFirst ? std::vector<Ring> { inner, outer } : std::vector<Ring> { outer, inner }) {
+			std::vector<int> nodes(ring.size());
+			std::iota(nodes.begin(), nodes.end(), 0);
+			a.addBlock(ring, { nodes }, {}, 0);
+		}
+		detectSegments(a);
+	};
+	const Ring square { { 0, 0 }, { 3, 0 }, { 3, 3 }, { 0, 3 } }, small { { 1, 1 }, { 2, 1 }, { 1.4, 2 } };
+	const Ring diamond { { 1.5, 0 }, { 3, 1.5 }, { 1.5, 3 }, { 0, 1.5 } }; // its corners touch the square's sides, none of its edges cross them
+	const Ring hook { { 0, 0 }, { 3, 0 }, { 3, 3 }, { 2.5, 3 }, { 2.5, 0.5 }, { 0.5, 0.5 }, { 0.5, 3 }, { 0, 3 } };
+	for (bool innerFirst : { false, true }) {
+		expectRefusal([&] { within(square, small, innerFirst); }, { "blocks 0 and 1 overlap" });
+		expectRefusal([&] { within(square, diamond, innerFirst); }, { "blocks 0 and 1 overlap" });
+		EXPECT_NO_THROW(within(hook, small, innerFirst)); // in its box, not in it
+	}
 }
 
 // ---- kinematics

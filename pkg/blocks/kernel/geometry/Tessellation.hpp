@@ -1,7 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
 
-#include <blocks/kernel/Types.hpp>
+#include <blocks/kernel/geometry/Polygon.hpp>
 
 #include <cstdint>
 
@@ -32,8 +32,7 @@ struct Cells {
 	Real                          meanSqrtArea = 0; ///< measured mean of the cells' sqrt(area) [m]
 };
 
-/// Voronoi cells of `region`, which must be a simple polygon, counter-clockwise, with clockwise holes: other
-/// orientations, and rings that cross or touch, are refused, not repaired.
+/// Voronoi cells of `region`, which must pass requireSimple() and be nowhere thinner than a millionth of the cell size.
 ///  - Random seeds are plain uniform (a Poisson process of fixed number); what regularity is wanted comes from `lloyd`.
 ///  - Region corners (also those of 180 degrees) are vertices and never move. Vertices on an edge of the region stay
 ///    on it: exactly if it is parallel to an axis, else to the rounding of their coordinates.
@@ -42,14 +41,8 @@ struct Cells {
 ///    may be more cells than seeds; merging may leave fewer.
 ///  - Cells are convex except at the region's own reflex corners; merging is refused where it would dent a cell by
 ///    more than 1e-9 s. Short edges are therefore rare, not impossible.
+/// Throws std::logic_error if the cells' areas do not add up to the region's.
 Cells tessellate(const Polygon& region, const TessellationOptions& options);
-
-/// Throws std::invalid_argument unless `region` is what tessellate() accepts; `name` begins the message.
-void requireSimple(const Polygon& region, const std::string& name);
-
-/// The ring with those of `points` that lie on its edges (within `tolerance` [m], and farther than that from its vertices
-/// and from each other) as further vertices, in order. Points keep their bits, so a neighbour's vertices become the ring's own.
-Ring withPointsOnEdges(const Ring& ring, const std::vector<Vec2>& points, Real tolerance);
 
 /// Vertices on the region's outline (outer ring and holes), ascending.
 std::vector<int> boundaryVertices(const Cells& cells);

@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
+#include <blocks/kernel/geometry/Polygon.hpp>
 #include <blocks/kernel/laws/JointKinematics.hpp>
 #include <blocks/kernel/model/BlockAssembly.hpp>
 #include <numeric>
@@ -7,27 +8,13 @@
 namespace blocks {
 namespace {
 
-	struct Area {
-		Real size;     ///< [m2]
-		Vec2 centroid; ///< [m]
-		Real second;   ///< polar second moment about the centroid [m4]
-	};
-
-	/// The area to the left of closed lines, given as edges: triangles from the first point to every edge.
-	template <class Iterator> Area areaOf(const std::vector<Vec2>& points, Iterator begin, Iterator end)
+	/// What lies to the left of closed lines, given as edges.
+	template <class Iterator> AreaSum momentsOf(const std::vector<Vec2>& points, Iterator begin, Iterator end)
 	{
-		const Vec2 apex = points[(*begin)[0]];
-		Real       size = 0, second = 0;
-		Vec2       first = Vec2::Zero();
-		for (; begin != end; ++begin) {
-			const Vec2 p = points[(*begin)[0]] - apex, q = points[(*begin)[1]] - apex;
-			const Real area = cross(p, q) / 2;
-			size += area;
-			first += area * (p + q) / 3;
-			second += area * (p.squaredNorm() + q.squaredNorm() + p.dot(q)) / 6;
-		}
-		const Vec2 centroid = first / size;
-		return { size, apex + centroid, second - size * centroid.squaredNorm() };
+		AreaSum sum(points[(*begin)[0]]);
+		for (; begin != end; ++begin)
+			sum.add(points[(*begin)[0]], points[(*begin)[1]]);
+		return sum;
 	}
 
 } // namespace
@@ -82,12 +69,12 @@ int BlockAssembly::addBlock(
 		for (const auto& ring : rings)
 			for (size_t i = 0; i < ring.size(); ++i)
 				edges.push_back({ ring[i], ring[(i + 1) % ring.size()] });
-		const Area area = areaOf(points, edges.begin(), edges.end());
-		require(area.size > 0, "a rigid block's holes must be smaller than itself; area [m2]", area.size);
+		const AreaSum sum = momentsOf(points, edges.begin(), edges.end());
+		require(sum.area() > 0, "a rigid block's holes must be smaller than itself; area [m2]", sum.area());
 		rigidBlock.block  = blockCount();
-		rigidBlock.origin = rigidBlock.centre = area.centroid;
-		rigidBlock.mass = rigidBlock.inertia = area.size * thickness * mesh.materials[material].density;
-		rigidBlock.moment = rigidBlock.rotaryInertia = area.second * thickness * mesh.materials[material].density;
+		rigidBlock.origin = rigidBlock.centre = sum.centroid();
+		rigidBlock.mass = rigidBlock.inertia = sum.area() * thickness * mesh.materials[material].density;
+		rigidBlock.moment = rigidBlock.rotaryInertia = sum.secondMoment() * thickness * mesh.materials[material].density;
 	}
 
 	// everything is as it should be: from here on nothing can fail half-way
@@ -133,7 +120,7 @@ Vec2 BlockAssembly::centroid(int block) const
 		std::vector<std::array<int, 2>> edges(mesh.edgeNodes.begin() + mesh.firstEdge[block], mesh.edgeNodes.begin() + mesh.firstEdge[block + 1]);
 		for (auto& edge : edges)
 			edge[0] -= first, edge[1] -= first;
-		return position(first) + areaOf(points, edges.begin(), edges.end()).centroid;
+		return position(first) + momentsOf(points, edges.begin(), edges.end()).centroid();
 	}
 	Vec2 sum   = Vec2::Zero();
 	Real total = 0;

@@ -1,7 +1,10 @@
 // yade-blocks, GPL-2.0-or-later
 #include <CGAL/box_intersection_d.h>
 #include <algorithm>
+#include <blocks/kernel/geometry/Polygon.hpp>
 #include <blocks/kernel/model/ContactDetection.hpp>
+#include <limits>
+#include <numeric>
 
 namespace blocks {
 namespace {
@@ -9,14 +12,29 @@ namespace {
 	struct Edge {
 		Vec2 a, b, along; // from a to b, unit direction
 		Real length;
+		Real scale; // the edge's length or its block's mean width, the lesser [m]
 		int  block, index;
 	};
+
+	[[noreturn]] void refuse(int block1, int block2, const Vec2& place)
+	{
+		throw std::invalid_argument(
+			"blocks " + std::to_string(block1) + " and " + std::to_string(block2) + " overlap near (" + shown(place.x()) + ", " + shown(place.y())
+			+ "): regions must not overlap");
+	}
+
+	/// Coordinates are known to a few units of their last place, however small the blocks are [m].
+	Real reachOf(const Edge& e1, const Edge& e2, Real tolerance)
+	{
+		const Real rounding = 4 * std::numeric_limits<Real>::epsilon() * std::max(e1.a.lpNorm<Eigen::Infinity>(), e2.a.lpNorm<Eigen::Infinity>());
+		return std::max(tolerance * std::min(e1.scale, e2.scale), rounding);
+	}
 
 	/// Whether two edges cross, or run the same way along each other: either means that their blocks overlap.
 	/// Ends that come within the tolerance of the other edge are touching, not crossing.
 	bool penetrate(const Edge& e1, const Edge& e2, Real tolerance)
 	{
-		const Real reach = tolerance * std::min(e1.length, e2.length);
+		const Real reach = reachOf(e1, e2, tolerance);
 		const Real a = cross(e1.along, e2.a - e1.a), b = cross(e1.along, e2.b - e1.a); // distances from the first edge's line
 		const Real c = cross(e2.along, e1.a - e2.a), d = cross(e2.along, e1.b - e2.a);
 		if (std::min(a, b) < -reach && std::max(a, b) > reach && std::min(c, d) < -reach && std::max(c, d) > reach) return true;
@@ -29,7 +47,7 @@ namespace {
 	bool overlap(const Edge& e1, const Edge& e2, Real tolerance, Segment& out)
 	{
 		if (e1.along.dot(e2.along) > 0) return false;
-		const Real reach = tolerance * std::min(e1.length, e2.length);
+		const Real reach = reachOf(e1, e2, tolerance);
 
 		// parameters along the first edge [m]; e2 runs the other way
 		const Real begin = (e2.b - e1.a).dot(e1.along), end = (e2.a - e1.a).dot(e1.along);
@@ -51,17 +69,59 @@ namespace {
 		return true;
 	}
 
+	/// A block's present outline, with its holes [m].
+	Polygon outlineOf(const BlockAssembly& a, int block)
+	{
+		std::vector<Ring> rings;
+		for (int e = a.mesh.firstEdge[block], first = -1; e < a.mesh.firstEdge[block + 1]; ++e) {
+			const auto& edge = a.mesh.edgeNodes[e];
+			if (first < 0) rings.emplace_back(), first = edge[0];
+			rings.back().push_back(a.position(edge[0]));
+			if (edge[1] == first) first = -1;
+		}
+		return { rings[0], { rings.begin() + 1, rings.end() } };
+	}
+
+	/// Blocks whose edges do not cross may still lie one within another: then so does the smaller one's box.
+	void requireNoneWithin(const BlockAssembly& a)
+	{
+		using Box = CGAL::Box_intersection_d::Box_with_handle_d<Real, 2, const int*, CGAL::Box_intersection_d::ID_EXPLICIT>;
+		std::vector<int> number(a.blockCount());
+		std::iota(number.begin(), number.end(), 0);
+		std::vector<Box> boxes;
+		for (const int& block : number) {
+			Real lo[] = { std::numeric_limits<Real>::max(), std::numeric_limits<Real>::max() }, hi[] = { -lo[0], -lo[1] };
+			for (int e = a.mesh.firstEdge[block]; e < a.mesh.firstEdge[block + 1]; ++e)
+				for (int axis : { 0, 1 }) {
+					lo[axis] = std::min(lo[axis], a.position(a.mesh.edgeNodes[e][0])[axis]);
+					hi[axis] = std::max(hi[axis], a.position(a.mesh.edgeNodes[e][0])[axis]);
+				}
+			boxes.emplace_back(lo, hi, &block);
+		}
+		const auto within = [&](const Box& inner, const Box& outer) {
+			for (int axis : { 0, 1 })
+				if (inner.min_coord(axis) < outer.min_coord(axis) || inner.max_coord(axis) > outer.max_coord(axis)) return false;
+			return strictlyInside(innerPoint(outlineOf(a, *inner.handle())), outlineOf(a, *outer.handle()));
+		};
+		CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& p, const Box& q) {
+			if (within(p, q) || within(q, p))
+				refuse(std::min(*p.handle(), *q.handle()), std::max(*p.handle(), *q.handle()), a.centroid(std::max(*p.handle(), *q.handle())));
+		});
+	}
+
 } // namespace
 
 std::vector<Segment> detectSegments(const BlockAssembly& a, Real tolerance)
 {
 	require(tolerance > 0 && tolerance < 0.1, "detectSegments: tolerance must lie in (0, 0.1)", tolerance);
 	std::vector<Edge> edges(a.mesh.edgeNodes.size());
-	for (int block = 0; block < a.blockCount(); ++block)
+	for (int block = 0; block < a.blockCount(); ++block) {
+		const Real width = meanWidth(outlineOf(a, block));
 		for (int i = a.mesh.firstEdge[block]; i < a.mesh.firstEdge[block + 1]; ++i) {
 			const Vec2 p = a.position(a.mesh.edgeNodes[i][0]), q = a.position(a.mesh.edgeNodes[i][1]);
-			edges[i] = { p, q, (q - p).normalized(), (q - p).norm(), block, i };
+			edges[i] = { p, q, (q - p).normalized(), (q - p).norm(), std::min((q - p).norm(), width), block, i };
 		}
+	}
 
 	using Box = CGAL::Box_intersection_d::Box_with_handle_d<Real, 2, const Edge*, CGAL::Box_intersection_d::ID_EXPLICIT>;
 	std::vector<Box> boxes;
@@ -81,10 +141,7 @@ std::vector<Segment> detectSegments(const BlockAssembly& a, Real tolerance)
 		const Edge *e1 = p.handle(), *e2 = q.handle();
 		if (e1->block == e2->block) return;
 		if (e1->block > e2->block) std::swap(e1, e2);
-		if (penetrate(*e1, *e2, tolerance))
-			throw std::invalid_argument(
-				"blocks " + std::to_string(e1->block) + " and " + std::to_string(e2->block) + " overlap near (" + shown(e1->a.x()) + ", "
-				+ shown(e1->a.y()) + "): regions must not overlap");
+		if (penetrate(*e1, *e2, tolerance)) refuse(e1->block, e2->block, e1->a);
 		Segment g;
 		if (!overlap(*e1, *e2, tolerance, g)) return;
 		const auto &n1 = a.mesh.edgeNodes[e1->index], &n2 = a.mesh.edgeNodes[e2->index];
@@ -93,6 +150,7 @@ std::vector<Segment> detectSegments(const BlockAssembly& a, Real tolerance)
 		g.area *= a.thickness;
 		found.push_back({ e1->index, e2->index, g });
 	});
+	requireNoneWithin(a);
 	std::sort(found.begin(), found.end(), [](const Found& x, const Found& y) { // by block pair, then edge by edge
 		return std::tie(x.segment.block, x.edge1, x.edge2) < std::tie(y.segment.block, y.edge1, y.edge2);
 	});

@@ -6,8 +6,8 @@
 namespace blocks {
 
 /// Overlaps of boundary edges of different blocks: edges that look at each other, parallel and apart by no more than `tolerance`
-/// times the shorter of the two. Every overlap longer than that becomes a Segment; their areas add up to the common surface.
-/// Blocks that penetrate each other by more than the tolerance are refused. Works in n log n.
+/// times the shorter of the two or the narrower of their blocks (or than rounding). Every overlap longer than that becomes a Segment; their areas add up
+/// to the common surface. Blocks that penetrate each other by more than the tolerance, or lie one within another, are refused. Works in n log n.
 std::vector<Segment> detectSegments(const BlockAssembly&, Real tolerance = 1e-6);
 
 } // namespace blocks

@@ -1,0 +1,11 @@
+// yade-blocks, GPL-2.0-or-later
+#pragma once
+#include <blocks/kernel/geometry/Diagram.hpp>
+#include <blocks/kernel/geometry/Tessellation.hpp>
+
+namespace blocks {
+
+/// Merges edges shorter than `shortest` [m], shortest first, and flattens cells thinner than it, where that is possible; `size` is that of a cell [m].
+Cells mergeShortEdges(Diagram&, const Walls& region, Real shortest, Real size);
+
+} // namespace blocks

@@ -1,0 +1,26 @@
+#!/bin/bash
+# Random input, at scale: scripts/fuzz.sh part=geometry [count=N] [seed=N]. Ends with the number of cases that nothing explains, and fails if there are any.
+# Each part is a program of its own in tests/fuzz/: `part` is looked up in the list below.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+part= count=1000 seed=1
+for argument in "$@"; do
+	case "$argument" in
+		part=*) part="${argument#part=}" ;;
+		count=*) count="${argument#count=}" ;;
+		seed=*) seed="${argument#seed=}" ;;
+		*) echo "'$argument' is none of part=, count=, seed=" >&2; exit 2 ;;
+	esac
+done
+for number in "$count" "$seed"; do
+	[[ "$number" =~ ^[0-9]+$ ]] || { echo "count and seed must be whole numbers, got '$number'" >&2; exit 2; }
+done
+
+log="$(mktemp)"
+trap 'rm -f "$log"' EXIT
+scripts/setup.sh > "$log" 2>&1 || { cat "$log" >&2; exit 1; }
+case "$part" in
+	geometry) build/tests/geometry_fuzz "$count" "$seed" ;;
+	*) echo "part must be geometry, got '$part'" >&2; exit 2 ;;
+esac
