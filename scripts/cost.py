@@ -59,7 +59,8 @@ print("COST " + json.dumps(dict(us=1e6 * cpu / steps, wall_us=1e6 * wall / steps
 def measure(folder, threads, **wish):
 	"""One run of the scene with the plugin of a checkout."""
 	environment = dict(
-		os.environ, COST=json.dumps(wish), PYTHONPATH=str(folder / "py"), YADEBLOCKS_PLUGIN=str(folder / "build/libyadeblocks.so"), OMP_WAIT_POLICY="passive"
+		os.environ, COST=json.dumps(wish), PYTHONPATH=str(folder / "py"), YADEBLOCKS_PLUGIN=str(folder / "build/libyadeblocks.so"),
+		OMP_WAIT_POLICY="passive"
 	)
 	script = root / "out/cost/scene.py"
 	run = subprocess.run(["yade", "-n", "-x", "-j", str(threads), str(script)], env=environment, capture_output=True, text=True)
@@ -87,7 +88,12 @@ def main(arguments):
 					turns[name].append(measure(checkout, int(keys["threads"]), size=size, **wish))
 			for name, runs in turns.items():
 				median = {key: statistics.median(run[key] for run in runs) for key in runs[0]}
-				rows.append(dict(build=name, feature=feature, size=size, threads=int(keys["threads"]), ns_zone=1e3 * median["us"] / median["zones"], **median))
+				rows.append(
+					dict(
+						build=name, feature=feature, size=size, threads=int(keys["threads"]),
+						ns_zone=1e3 * median["us"] / median["zones"], **median
+					)
+				)
 			if len(builds) == 2:
 				ratios = [a["us"] / b["us"] for a, b in zip(turns["this"], turns["other"])]
 				rows[-2]["ratio"] = statistics.median(ratios)
@@ -112,7 +118,8 @@ def draw(rows, path):
 	for build in dict.fromkeys(row["build"] for row in rows):
 		for feature in features:
 			some = [row for row in rows if row["build"] == build and row["feature"] == feature]
-			axes.loglog([row["zones"] for row in some], [row["ns_zone"] for row in some], "o-" if build == "this" else "s--", label=f"{build}: {feature}")
+			axes.loglog([row["zones"] for row in some], [row["ns_zone"] for row in some], "o-" if build == "this" else "s--",
+					label=f"{build}: {feature}")
 	axes.set_xlabel("zones")
 	axes.set_ylabel("CPU time of a step [ns a zone]")
 	axes.grid(True, which="both", alpha=0.3)

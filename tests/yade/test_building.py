@@ -34,6 +34,7 @@ def aspect(m, block):
 
 # ---- edges
 
+
 @pytest.mark.parametrize('zoning', ['delaunay', 'regular', 'fan', 'corners'])
 def test_neighboursPointsDoNotKeepAnOutlineFromBeingDivided(zoning):
 	m = fresh()
@@ -91,7 +92,10 @@ def test_cantileverWithAWeightlessNeighbour():
 		m.gravity((0, -9.81))
 		m.insert()
 		O.dt = 1e-3
-		O.engines = engines([JointMat(material1=a, material2=b, **{**glue, 'cohesion': 1e15, 'tension': 1e15}) for a, b in (('unit', 'light'), ('unit', 'unit'), ('light', 'light'))], alpha=0.5)
+		O.engines = engines([
+			JointMat(material1=a, material2=b, **{**glue, 'cohesion': 1e15, 'tension': 1e15})
+			for a, b in (('unit', 'light'), ('unit', 'unit'), ('light', 'light'))
+		], alpha=0.5)
 		from yadeblocks import loading
 		loading.settle(m)
 		tip = nodesWhere(m, lambda x, y: (x > 1 - 1e-9) & (y < 1e-9))
@@ -175,13 +179,18 @@ def test_wallsAlongBisectors():
 
 # ---- refusals
 
+
 def test_aRefusalAddsNothing():
 	m = fresh()
 	m.addVoronoi(R(2, 0, 3, 1), 'mortar', size=.3)
 	before = m.blockCount, m.nodeCount, m.zoneCount
-	for refused in (lambda: m.addVoronoi(square, 'unit', size=.3, zoning='hexagons'), lambda: m.addRegion(square, 'unit', zoneSize=.1, zoning='hexagons'),
-	                lambda: m.addRegion([(0, 0), (1, 0), (1, 1)], 'unit', zoneSize=.1, zoning='regular'),
-	                lambda: m.addRegion([(0, 0), (3, 0), (3, 1), (2, 1), (2, -0.5 + 1), (1, .5), (1, 1), (0, 1)], 'unit', zoneSize=1, zoning='fan')):
+	for refused in (
+		lambda: m.addVoronoi(square, 'unit', size=.3, zoning='hexagons'), lambda: m.addRegion(square, 'unit', zoneSize=.1, zoning='hexagons'),
+		lambda: m.addRegion([(0, 0), (1, 0),
+					(1, 1)], 'unit', zoneSize=.1, zoning='regular'), lambda: m.addRegion([(0, 0), (3, 0), (3, 1), (2, 1), (2, -0.5 + 1),
+														(1, .5), (1, 1),
+														(0, 1)], 'unit', zoneSize=1, zoning='fan')
+	):
 		with pytest.raises(ValueError):
 			refused()
 		assert (m.blockCount, m.nodeCount, m.zoneCount) == before and list(m.materialLabels) == ['mortar']
@@ -198,8 +207,9 @@ def test_whatIsThereAlready(method):
 
 	frame = (square, [hole])
 	inner, across = (R(.1, .1, .2, .2), ()), (R(-.5, .2, 1.5, .3), ())
-	for first, second in [((square, ()), (square, ())), ((square, ()), (square[2:] + square[:2], ())), (frame, (square, ())), ((square, ()), frame), (frame, frame), ((square, ()), inner), (inner, (square, ())),
-	                      ((square, ()), across), ((square, ()), ([(.5, 0), (1, .5), (.5, 1), (0, .5)], ()))]:
+	for first, second in [((square, ()), (square, ())), ((square, ()), (square[2:] + square[:2], ())), (frame, (square, ())), ((square, ()), frame),
+				(frame, frame), ((square, ()), inner), (inner, (square, ())), ((square, ()), across),
+				((square, ()), ([(.5, 0), (1, .5), (.5, 1), (0, .5)], ()))]:
 		m = fresh()
 		if method == 'addVoronoi' and inner in (first, second): continue # too small for cells of 0.3
 		if method == 'addVoronoi' and across in (first, second): continue

@@ -30,9 +30,7 @@ writable = {
 	'BlockLaw': {},
 	'NumpyLaw': {},
 	'BlockState': {},
-	'BlockMotion': dict(
-		damping='none', alpha=0.7, watchPeriod=7, rescueFile='x.xml', safety=0.5, quasiStatic=False, dead=True, label='a'
-	),
+	'BlockMotion': dict(damping='none', alpha=0.7, watchPeriod=7, rescueFile='x.xml', safety=0.5, quasiStatic=False, dead=True, label='a'),
 	'BlockIntegrator': dict(damping='none', alpha=0.7, watchPeriod=7, rescueFile='x.xml', dead=True, label='a'),
 	'BlockServo': dict(groups=['a'], target=0.01, floor=3., least=0.5, period=7, dead=True, label='a'),
 	'BlockCrackRecorder': dict(fileName='x.txt', iterPeriod=3, label='a'),

@@ -22,9 +22,10 @@ void Bo1_Block_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound
 		lo = lo.cwiseMin(a.position(n));
 		hi = hi.cwiseMax(a.position(n));
 	}
-	const Real margin = 2 * blocks::FreeContacts::mayMove * blocks::meanEdge(a, block->index); // so that a collider without BlockContacts is noticed before it is too late
-	bound->min        = Vector3r(lo.x() - margin, lo.y() - margin, se3.position.z());
-	bound->max        = Vector3r(hi.x() + margin, hi.y() + margin, se3.position.z());
+	const Real margin = 2 * blocks::FreeContacts::mayMove
+		* blocks::meanEdge(a, block->index); // so that a collider without BlockContacts is noticed before it is too late
+	bound->min = Vector3r(lo.x() - margin, lo.y() - margin, se3.position.z());
+	bound->max = Vector3r(hi.x() + margin, hi.y() + margin, se3.position.z());
 }
 
 void BlockContacts::newScene() { started = false; }

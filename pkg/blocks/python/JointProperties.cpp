@@ -118,9 +118,9 @@ void defineJoints(PythonModel& c)
 		 "jointProperties",
 		 &jointProperties,
 		 "Properties of all joints as a dictionary of columns, one entry a segment: kn, ks [Pa/m], cohesion, tension, cohesionResidual, "
-	         "tensionResidual [Pa], "
+		 "tensionResidual [Pa], "
 		 "frictionAngle, frictionAngleResidual, dilationAngle [rad], dilationLimitSlip [m]. Copies; :yref:`setJoints<BlockModel.setJoints>` changes "
-	         "them.")
+		 "them.")
 		.def("setJoints",
 	             py::raw_function(&setJoints, 1),
 	             "setJoints(joints=None, kn=..., ks=..., cohesion=..., ...): new properties for the given joints (indices of segments; None: all), each "

@@ -27,8 +27,8 @@ Vector3r BlockState::velocity() const
 
 void BlockState::refuse(const py::object&)
 {
-	throw std::invalid_argument(
-		"the motion of a deformable block is that of its grid points: use BlockModel.drive, or write to BlockModel.displacement and BlockModel.velocity");
+	throw std::invalid_argument("the motion of a deformable block is that of its grid points: use BlockModel.drive, or write to BlockModel.displacement "
+	                            "and BlockModel.velocity");
 }
 
 YADE_PLUGIN((BlockState));

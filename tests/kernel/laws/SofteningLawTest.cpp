@@ -40,13 +40,13 @@ struct Driven {
 	SofteningParams s;
 	SofteningStep   now;
 	Real            un = 0, us = 0;
-	SofteningWork      sum;
+	SofteningWork   sum;
 	Real            work = 0, least = 0, snaps = 0; ///< least: dissipated in one step [J/m2]
 
 	void to(Real newUn, Real newUs)
 	{
 		const SofteningStep next = advanceSoftening(p, s, now.joint, now.soft, newUn, newUs);
-		const SofteningWork    d    = dissipated(p, s, now, un, us, next, newUn, newUs);
+		const SofteningWork d    = dissipated(p, s, now, un, us, next, newUn, newUs);
 		sum.opening += d.opening, sum.slip += d.slip, sum.friction += d.friction, sum.cap += d.cap;
 		least = std::min(least, d.opening + d.slip + d.friction + d.cap);
 		work += (now.sigma + next.sigma) / 2 * (newUn - un) + (now.tau + next.tau) / 2 * (newUs - us);
@@ -335,7 +335,7 @@ TEST(SofteningLaw, TensionAndShearShareOneScalar)
 // Every step obeys dk = sqrt((ft l1/GfI)^2 + (c l2/GfII)^2), to the roundings of openings of 1e-5 m, times ft/GfI and c/GfII.
 TEST(SofteningLaw, OpeningAndSlipAddAsSquares)
 {
-	Driven d = point();
+	Driven d    = point();
 	int    both = 0;
 	for (int i = 1; i <= 1000; ++i) {
 		const SofteningStep before = d.now;

@@ -165,8 +165,8 @@ TEST(RigidBlocks, GridPointsGoWhereTheBodyGoes)
 	BlockAssembly a = mixed(elasticJoint(1e9, 1e9));
 	RigidBlock&   r = a.state.rigid[0];
 	Damping       none;
-	none.kind                  = Damping::Kind::none;
-	const Real half            = 1.2;
+	none.kind                             = Damping::Kind::none;
+	const Real half                       = 1.2;
 	a.state.velocity[a.mesh.firstNode[1]] = { 7, 7 }; // of no account
 	followRigidMotion(a, r, { r.origin + Vec2(3, -2), { std::cos(half), std::sin(half) }, { 1, 2, 3 }, Vec3::Zero() }, 0.1);
 	integrate(a, none, 0.1, 0);
@@ -348,7 +348,7 @@ TEST(RigidBlocks, AreHeldInTheLastGoodState)
 	moveRigid(a, 0.1);
 	a.state.rigid[1].velocity *= std::nan("");
 	a.state.velocity[a.mesh.firstNode[3]].x() = std::nan("");
-	const auto verdict             = watch.look(a, 8, 0.8, 0.1);
+	const auto verdict                        = watch.look(a, 8, 0.8, 0.1);
 	EXPECT_FALSE(verdict.stable);
 	EXPECT_EQ(verdict.block, 3);
 	EXPECT_EQ(watch.restore(a), 7);

@@ -113,7 +113,7 @@ TEST(TimeStep, JointsShareInClosedForm)
 	a.addMaterial({ 1e-9, 0, 1 });
 	addGrid(a, { 0, 0 }, 1.6, 0.5, 2, 1);
 	addGrid(a, { 0, 0.5 }, 1.6, 0.5, 1, 1);
-	JointParams joint = elasticJoint(3, 5);
+	JointParams joint    = elasticJoint(3, 5);
 	joint.tanPhiResidual = joint.tanDilation = 0.5;
 	bondAll(a, joint);
 	const auto K    = nodalStiffness(a);

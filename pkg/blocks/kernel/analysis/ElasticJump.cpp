@@ -70,7 +70,7 @@ namespace {
 			const Moduli m = moduliOf(a, block);
 			for (int z = a.mesh.firstZone[block]; z < a.mesh.firstZone[block + 1]; ++z) {
 				const ZoneGradients s    = a.mesh.zoneGradient[z];
-				const Vec2           g[3] = { { -s.g1x - s.g2x, -s.g1y - s.g2y }, { s.g1x, s.g1y }, { s.g2x, s.g2y } };
+				const Vec2          g[3] = { { -s.g1x - s.g2x, -s.g1y - s.g2y }, { s.g1x, s.g1y }, { s.g2x, s.g2y } };
 				for (int i = 0; i < 3; ++i)
 					for (int j = 0; j < 3; ++j) {
 						Eigen::Matrix<Real, 2, 2> k = m.lambda * g[i] * g[j].transpose() + m.mu * g[j] * g[i].transpose();
@@ -260,7 +260,7 @@ namespace {
 	ElasticJump applyLoading(BlockAssembly& a, const std::vector<Vec2>& rate, Real fraction)
 	{
 		const State before = a.state;
-		auto       moveTo = [&](Real time) {
+		auto        moveTo = [&](Real time) {
                         for (int n = 0; n < a.nodeCount(); ++n)
                                 a.state.displacement[n] = before.displacement[n] + time * rate[n];
                         elasticForces(a);

@@ -40,7 +40,8 @@ void OverlapWatch::measure(const BlockAssembly& a)
 			consider(node);
 			for (int i = 0; i < 3; ++i) {
 				const int from = node[i], to = node[(i + 1) % 3];
-				if (next[from] == to) zoneHeight[from] = 2 * a.mesh.zoneVolume[z] / a.thickness / (a.mesh.reference[to] - a.mesh.reference[from]).norm();
+				if (next[from] == to)
+					zoneHeight[from] = 2 * a.mesh.zoneVolume[z] / a.thickness / (a.mesh.reference[to] - a.mesh.reference[from]).norm();
 				if (next[from] < 0) consider({ from, from, from });
 			}
 		}
@@ -51,9 +52,9 @@ void OverlapWatch::measure(const BlockAssembly& a)
 bool OverlapWatch::entered(const BlockAssembly& a, int block, int other) const
 {
 	if (innermost[block][0] < 0) return false;
-	const auto& n = innermost[block];
-	const Vec2  p = (a.position(n[0]) + a.position(n[1]) + a.position(n[2])) / 3;
-	bool       odd = false;
+	const auto& n   = innermost[block];
+	const Vec2  p   = (a.position(n[0]) + a.position(n[1]) + a.position(n[2])) / 3;
+	bool        odd = false;
 	for (int e = a.mesh.firstEdge[other]; e < a.mesh.firstEdge[other + 1]; ++e) {
 		const Vec2 from = a.position(a.mesh.edgeNodes[e][0]), to = a.position(a.mesh.edgeNodes[e][1]);
 		if ((from.y() > p.y()) != (to.y() > p.y()) && p.x() < from.x() + (p.y() - from.y()) / (to.y() - from.y()) * (to.x() - from.x())) odd = !odd;

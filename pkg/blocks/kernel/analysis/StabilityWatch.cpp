@@ -11,7 +11,8 @@ namespace {
 		int  fastest = 0;
 		Real most    = -1;
 		for (int n = 0; n < a.nodeCount(); ++n)
-			if (a.state.inertia[n] * a.state.velocity[n].squaredNorm() > most) most = a.state.inertia[n] * a.state.velocity[n].squaredNorm(), fastest = a.blockOfNode(n);
+			if (a.state.inertia[n] * a.state.velocity[n].squaredNorm() > most)
+				most = a.state.inertia[n] * a.state.velocity[n].squaredNorm(), fastest = a.blockOfNode(n);
 		for (const RigidBlock& r : a.state.rigid) {
 			const Real energy = (r.inertia * r.velocity.head<2>().squaredNorm() + r.rotaryInertia * r.velocity[2] * r.velocity[2])
 				/ (a.mesh.firstNode[r.block + 1] - a.mesh.firstNode[r.block]);

@@ -274,11 +274,11 @@ SofteningWork dissipated(
 	Real                   openingAfter,
 	Real                   slipAfter)
 {
-	const Real work = (before.sigma + after.sigma) / 2 * (openingAfter - openingBefore) + (before.tau + after.tau) / 2 * (slipAfter - slipBefore);
-	Real       rest = work - (storedEnergy(p, s, after.soft, after.sigma, after.tau) - storedEnergy(p, s, before.soft, before.sigma, before.tau));
+	const Real    work = (before.sigma + after.sigma) / 2 * (openingAfter - openingBefore) + (before.tau + after.tau) / 2 * (slipAfter - slipBefore);
+	Real          rest = work - (storedEnergy(p, s, after.soft, after.sigma, after.tau) - storedEnergy(p, s, before.soft, before.sigma, before.tau));
 	SofteningWork d;
-	const bool crushed = after.soft.crushing > before.soft.crushing;
-	const Real plastic = after.joint.slipPlastic - before.joint.slipPlastic;
+	const bool    crushed = after.soft.crushing > before.soft.crushing;
+	const Real    plastic = after.joint.slipPlastic - before.joint.slipPlastic;
 	if (plastic != 0) {
 		const bool     dry   = after.joint.status == Joint::unbonded;
 		const bool     open  = after.sigma > 0;

@@ -71,8 +71,8 @@ struct FreeContacts {
 	std::vector<Real> depthLimit, meanEdge; ///< of blocks [m]
 
 	// ---- how far things have moved
-	Odometer          odometer;
-	std::vector<int>  waiting;    ///< broken joints that will be released, in their order
+	Odometer         odometer;
+	std::vector<int> waiting; ///< broken joints that will be released, in their order
 
 	static constexpr Real mayMove = 0.016; ///< of a mean edge, until edge pairs are looked for anew
 };

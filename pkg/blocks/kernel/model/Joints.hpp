@@ -22,11 +22,11 @@ struct Pair {
 
 /// What the step reads of a joint, as columns, one entry a joint. All follows from the segments and the reference positions.
 struct JointColumns {
-	std::vector<Real> e1x, e1y, e2x, e2y; ///< edges b1 - a1 and b2 - a2 without stress [m]
-	std::vector<Real> dx, dy;             ///< a2 - a1 without stress [m]
-	std::array<std::vector<Real>, 2> s1, s2; ///< of the two points
+	std::vector<Real>                e1x, e1y, e2x, e2y;    ///< edges b1 - a1 and b2 - a2 without stress [m]
+	std::vector<Real>                dx, dy;                ///< a2 - a1 without stress [m]
+	std::array<std::vector<Real>, 2> s1, s2;                ///< of the two points
 	std::array<std::vector<Real>, 2> bondOpening, bondSlip; ///< distance of the two points' hosts when they were bonded, in the frame [m]
-	std::vector<Real>                area;  ///< 0 of released joints [m2]
+	std::vector<Real>                area;                  ///< 0 of released joints [m2]
 };
 
 /// The joints of bonded blocks.

@@ -34,11 +34,12 @@ namespace {
 	constexpr int lanes = 8; ///< sums are taken in so many parts, whatever the width of the processor
 
 	/// Degrees of freedom [first, last); sums are taken only where somebody reads them.
-	template <Damping::Kind kind, bool account> inline __attribute__((always_inline)) Sums advanceRange(const Arrays& a, int first, int last, const Rates& r)
+	template <Damping::Kind kind, bool account>
+	inline __attribute__((always_inline)) Sums advanceRange(const Arrays& a, int first, int last, const Rates& r)
 	{
-		constexpr bool sums = account || kind == Damping::Kind::adaptive;
-		Real *const __restrict u = a.u, *const __restrict v = a.v;
-		const Real *const __restrict f = a.f, *const __restrict w = a.w;
+		constexpr bool sums      = account || kind == Damping::Kind::adaptive;
+		Real* const __restrict u = a.u, * const __restrict v = a.v;
+		const Real* const __restrict f = a.f, * const __restrict w = a.w;
 		const auto velocityAfter = [&](int i) {
 			const Real before = v[i];
 			if constexpr (kind == Damping::Kind::none) return before + r.dt * w[i] * f[i];
@@ -58,10 +59,10 @@ namespace {
 			}
 			return {};
 		} else {
-			Real dampingBefore[lanes] = {}, dampingAfter[lanes] = {}, kinetic[lanes] = {}, viscousPower[lanes] = {}, kineticTurn[lanes] = {};
+			Real       dampingBefore[lanes] = {}, dampingAfter[lanes] = {}, kinetic[lanes] = {}, viscousPower[lanes] = {}, kineticTurn[lanes] = {};
 			const auto advance = [&](int i, int lane) {
 				const Real before = v[i], after = velocityAfter(i);
-				v[i]              = after;
+				v[i] = after;
 				u[i] += r.dt * after;
 				const Real m = w[i] > 0 ? 1 / w[i] : 0; // prescribed motion: its work is the group's
 				if constexpr (account) {
@@ -107,8 +108,8 @@ namespace {
 	/// Ranges of a fixed length, summed in their order: the result does not know how many threads there were.
 	Sums advanceAll(Advance advance, const Arrays& a, int count, const Rates& r, [[maybe_unused]] int threads)
 	{
-		constexpr int range   = 4096;
-		const int     ranges  = (count + range - 1) / range;
+		constexpr int                         range  = 4096;
+		const int                             ranges = (count + range - 1) / range;
 		static thread_local std::vector<Sums> partial; // grows once
 		partial.resize(ranges);
 		Sums* const part = partial.data();

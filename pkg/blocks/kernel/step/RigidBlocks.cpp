@@ -77,9 +77,9 @@ StepWork followRigidMotion(BlockAssembly& a, RigidBlock& r, const RigidMotion& n
 {
 	const Real c = now.halfTurn.x(), s = now.halfTurn.y(), cosine = c * c - s * s, sine = 2 * c * s;
 	for (int n = a.mesh.firstNode[r.block]; n < a.mesh.firstNode[r.block + 1]; ++n) {
-		const Vec2 arm   = a.mesh.reference[n] - r.origin;
-		const Vec2 there = now.centre + Vec2(cosine * arm.x() - sine * arm.y(), sine * arm.x() + cosine * arm.y());
-		a.state.velocity[n]    = (there - a.position(n)) / dt;
+		const Vec2 arm      = a.mesh.reference[n] - r.origin;
+		const Vec2 there    = now.centre + Vec2(cosine * arm.x() - sine * arm.y(), sine * arm.x() + cosine * arm.y());
+		a.state.velocity[n] = (there - a.position(n)) / dt;
 	}
 
 	StepWork work;

@@ -15,7 +15,7 @@ namespace {
 	void addZone(const BlockAssembly& a, int zone, const Moduli& m, std::vector<Real>& stiffness)
 	{
 		const ZoneGradients s    = a.mesh.zoneGradient[zone];
-		const Vec2           g[3] = { { -s.g1x - s.g2x, -s.g1y - s.g2y }, { s.g1x, s.g1y }, { s.g2x, s.g2y } };
+		const Vec2          g[3] = { { -s.g1x - s.g2x, -s.g1y - s.g2y }, { s.g1x, s.g1y }, { s.g2x, s.g2y } };
 		for (int i = 0; i < 3; ++i)
 			for (int j = 0; j < 3; ++j) { // K_ij = V (lambda g_i g_j^T + mu (g_j g_i^T + g_i.g_j 1))
 				const Real dot = m.mu * g[i].dot(g[j]), mixed = m.lambda + m.mu;

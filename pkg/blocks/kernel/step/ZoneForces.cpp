@@ -10,11 +10,12 @@ namespace {
 	struct Batch {
 		alignas(64) Real px[zoneBatch], py[zoneBatch], qx[zoneBatch], qy[zoneBatch];     ///< displacements of nodes 1 and 2 less that of node 0 [m]
 		alignas(64) Real f1x[zoneBatch], f1y[zoneBatch], f2x[zoneBatch], f2y[zoneBatch]; ///< on nodes 1 and 2 [N]
-		alignas(64) Real energy[zoneBatch]; ///< only if somebody asks [J]
+		alignas(64) Real energy[zoneBatch];                                              ///< only if somebody asks [J]
 	};
 
 	/// The arithmetic proper, without indirections.
-	template <Strain kind, bool energy> inline __attribute__((always_inline)) void forcesOfBatch(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m)
+	template <Strain kind, bool energy>
+	inline __attribute__((always_inline)) void forcesOfBatch(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m)
 	{
 		const Moduli moduli = m;
 		const Real * g1x = mesh.zoneGradient.g1x.data() + first, *g1y = mesh.zoneGradient.g1y.data() + first;
@@ -29,10 +30,22 @@ namespace {
 			if constexpr (energy) b.energy[i] = volume[i] * zoneEnergyDensity(moduli, e);
 		}
 	}
-	WIDE void largeStrain(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m) { forcesOfBatch<Strain::large, false>(b, mesh, first, count, m); }
-	WIDE void smallStrain(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m) { forcesOfBatch<Strain::small, false>(b, mesh, first, count, m); }
-	WIDE void largeWithEnergy(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m) { forcesOfBatch<Strain::large, true>(b, mesh, first, count, m); }
-	WIDE void smallWithEnergy(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m) { forcesOfBatch<Strain::small, true>(b, mesh, first, count, m); }
+	WIDE void largeStrain(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m)
+	{
+		forcesOfBatch<Strain::large, false>(b, mesh, first, count, m);
+	}
+	WIDE void smallStrain(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m)
+	{
+		forcesOfBatch<Strain::small, false>(b, mesh, first, count, m);
+	}
+	WIDE void largeWithEnergy(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m)
+	{
+		forcesOfBatch<Strain::large, true>(b, mesh, first, count, m);
+	}
+	WIDE void smallWithEnergy(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m)
+	{
+		forcesOfBatch<Strain::small, true>(b, mesh, first, count, m);
+	}
 	using Kernel = void (*)(Batch&, const Mesh&, int, int, const Moduli&);
 
 	/// Zones of any shape: edge by edge from their grid points, and back.
