@@ -218,6 +218,8 @@ TEST(FreeContacts, MaterialsDecideOnProperties)
 	ASSERT_EQ(a.contacts.order.size(), 2u);
 	EXPECT_EQ(a.state.contacts[contactOf(a, 0, 1)].joint.kn, 3); // materials 2 and 1
 	EXPECT_EQ(a.state.contacts[contactOf(a, 1, 2)].joint.kn, 4); // 1 and 0
+	a.bond({});                                                  // the kinds are new, so that those between materials are to be said again
+	EXPECT_EQ(a.joints.kindOfMaterials(2, 1), 0);
 }
 
 TEST(FreeContacts, ABlockThatIsAddedLaterIsSeen)

@@ -273,9 +273,12 @@ TEST(ZoneForces, ABlockThatOnlyLooksLikeAFanIsNone)
 	a.addBlock(points, { { 0, 1, 2, 3 } }, { { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 } }, 0);
 	a.addBlock(points, { { 0, 1, 2, 3 } }, { { 1, 2, 4 }, { 0, 1, 4 }, { 2, 3, 4 }, { 3, 0, 4 } }, 0); // in another order
 	a.addBlock(points, { { 0, 1, 2, 3 } }, { { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 0, 4, 3 } }, 0); // the last one turned
+	const Ring shuffled { { 0, 0 }, { 1, 1 }, { 1, 0 }, { 0, 1 }, { 0.5, 0.5 } };                      // grid points not in the order of the outline
+	a.addBlock(shuffled, { { 0, 2, 1, 3 } }, { { 2, 1, 4 }, { 0, 2, 4 }, { 1, 3, 4 }, { 3, 0, 4 } }, 0);
 	EXPECT_TRUE(a.mesh.isFan[0]);
 	EXPECT_FALSE(a.mesh.isFan[1]);
 	EXPECT_FALSE(a.mesh.isFan[2]);
+	EXPECT_FALSE(a.mesh.isFan[3]);
 	BlockAssembly rigid;
 	rigid.addMaterial(stone());
 	rigid.addBlock({ { 0, 0 }, { 1, 0 }, { 0, 1 } }, { { 0, 1, 2 } }, {}, 0);
