@@ -35,7 +35,7 @@ flat = 'BlockLoop' in globals()
 if flat: model.bond(joints)
 else: model.bond()
 model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
-model.drive('top', nodesWhere(model, lambda x, y: y > high + low - 1e-9), 'y', velocity=1e-9, rampTime=100)
+model.drive('top', nodesWhere(model, lambda x, y: y > high + low - 1e-9), 'y', velocity=1e-12, rampTime=100)
 model.insert()
 O.dt, O.trackEnergy = 1, wish.get("energy", False)
 if flat: O.engines = [BlockLoop(contact=contact), BlockMotion(alpha=0.3)]

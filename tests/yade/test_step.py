@@ -40,7 +40,7 @@ def scene(kind, native=False, energy=False, interactions=True):
 kinds = pytest.mark.parametrize('kind', ['tension', 'shear', 'compression'])
 
 # Fingerprints of the state after 3000 steps, on any x86-64 processor. They change only where CHANGELOG says that bits have moved.
-golden = {'tension': '142756c2c5221655', 'shear': 'fe060fc028e8b420', 'compression': 'ac61e4511ecfe875'}
+golden = {'tension': 'fb56b64a12393b45', 'shear': '7f681a3cdd58f428', 'compression': '28c7444f6b98425f'}
 
 
 @kinds
@@ -62,7 +62,9 @@ def test_accountsAreTheSame(kind):
 		O.run(3000, True)
 		sums.append({name: value for name, value in O.energy.items() if name.startswith('block')})
 		sums[-1]['bits'] = model.fingerprint()
-	assert sums[0] == sums[1] and sums[0]['blockFracture'] > 0
+	flat, native = sums
+	assert flat.pop('blockJoints') == pytest.approx(native.pop('blockJoints'), rel=1e-13) # summed in another order
+	assert flat == native and flat['blockFracture'] > 0
 
 
 @kinds
@@ -95,9 +97,11 @@ def test_propertiesByJoint():
 	properties = model.jointProperties
 	assert (properties['tension'][weak] == 1e4).all() and np.count_nonzero(properties['tension'] == 1e4) == len(weak)
 	np.testing.assert_allclose(properties['frictionAngle'][weak], 0.8, rtol=1e-15)
-	O.run(1000, True)
+	while not model.pointStatus.any():
+		O.run(50, True)
+		assert O.iter < 3000
 	broken = np.unique(np.flatnonzero(model.pointStatus) // 2)
-	assert len(broken) and set(broken) <= set(weak)
+	assert set(broken) <= set(weak)
 
 
 @pytest.mark.parametrize(

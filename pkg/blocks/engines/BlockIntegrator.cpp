@@ -76,7 +76,7 @@ void BlockIntegrator::step(BlockModel& model)
 	const bool             account = scene->trackEnergy;
 	if (account) { // of the time of the forces, before anything moves
 		scene->energy->set(blocks::sumOf(a.forces.zoneEnergy), "blockZones", zonesId);
-		scene->energy->set(blocks::jointEnergy(a), "blockJoints", jointsId);
+		scene->energy->set(blocks::bookedJointEnergy(a), "blockJoints", jointsId);
 	}
 	const Real       loadWork = account ? blocks::loadWork(a) : 0;
 	blocks::StepWork work;

@@ -152,7 +152,7 @@ namespace {
 				a.state.displacement[n] += step[n];
 			elasticForces(a);
 		}
-		for (const auto& f : a.forces.joint)
+		for (const auto& f : a.forces.side)
 			scale = std::max(scale, f[0].norm());
 		const Real stiffest = factors.rows() > 0 ? factors.vectorD().maxCoeff() : 0;
 		const Real rounding = 1e3 * std::numeric_limits<Real>::epsilon() * stiffest * sizeOf(a);

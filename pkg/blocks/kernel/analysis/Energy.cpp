@@ -39,6 +39,12 @@ Real jointEnergy(const BlockAssembly& a)
 	return sum + (a.contacts.order.empty() ? 0 : contactEnergy(a));
 }
 
+Real bookedJointEnergy(const BlockAssembly& a)
+{
+	if (a.forces.jointEnergy.empty()) return jointEnergy(a); // a law of one's own does not keep them
+	return sumOf(a.forces.jointEnergy) + (a.contacts.order.empty() ? 0 : contactEnergy(a));
+}
+
 Real gridPointsKineticEnergy(const BlockAssembly& a)
 {
 	Real sum = 0;

@@ -8,6 +8,7 @@ namespace blocks {
 Real zoneEnergy(const BlockAssembly&);              ///< elastic energy of the zones
 Real sumOf(const std::vector<Real>&);               ///< in their order
 Real jointEnergy(const BlockAssembly&);             ///< elastic energy of the joints' springs and of free contacts
+Real bookedJointEnergy(const BlockAssembly&);       ///< the same of the last step, from the accounts where it kept them
 Real kineticEnergy(const BlockAssembly&);           ///< from the velocities at the last half step and the inertia
 Real gridPointsKineticEnergy(const BlockAssembly&); ///< ... without that of rigid blocks
 Real loadWork(const BlockAssembly&);                ///< of the dead loads since the reference state

@@ -8,7 +8,9 @@
 #include <blocks/kernel/geometry/Merging.hpp>
 #include <blocks/kernel/geometry/Tessellation.hpp>
 
+#include <CGAL/hilbert_sort.h>
 #include <algorithm>
+#include <blocks/kernel/geometry/Cgal.hpp>
 #include <limits>
 #include <random>
 
@@ -38,6 +40,17 @@ namespace {
 	/// The same numbers on every machine and library, unlike std::uniform_real_distribution: 53 bits, in [0, 1).
 	Real uniform(std::mt19937_64& random) { return Real(random() >> 11) * 0x1p-53; }
 
+	/// Neighbours get numbers close to one another, so that a step finds them close in memory.
+	std::vector<Vec2> alongHilbertCurve(const std::vector<Vec2>& seeds)
+	{
+		std::vector<K::Point_2> points = toK(seeds);
+		CGAL::hilbert_sort(points.begin(), points.end(), CGAL::Hilbert_sort_middle_policy());
+		std::vector<Vec2> sorted;
+		for (const K::Point_2& p : points)
+			sorted.push_back(fromK(p));
+		return sorted;
+	}
+
 	std::vector<Vec2> randomSeeds(const Polygon& region, int count, std::uint64_t seed)
 	{
 		std::mt19937_64 random(seed);
@@ -52,7 +65,7 @@ namespace {
 			const Vec2 p = low + Vec2(x, y).cwiseProduct(high - low);
 			if (strictlyInside(p, region)) seeds.push_back(p);
 		}
-		return seeds;
+		return alongHilbertCurve(seeds);
 	}
 
 	/// Checks the options and returns s, the nominal sqrt(area) of a cell [m].

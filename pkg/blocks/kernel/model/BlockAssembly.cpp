@@ -101,7 +101,7 @@ int BlockAssembly::addBlock(
 
 	contacts.started = false; // nobody has looked at it yet
 	rebuildZones(blockCount() - 1);
-	joints.firstSide.push_back(int(joints.sides.size()));
+	joints.firstSide.push_back(int(joints.sideNode.size()));
 	return blockCount() - 1;
 }
 
@@ -231,7 +231,6 @@ void BlockAssembly::rebuildJoints()
 	joints.node.resize(count);
 	joints.effective.resize(count);
 	joints.kindOfBatch.resize(batches);
-	forces.joint.assign(count, { Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero() });
 	forces.broke.assign(batches, false);
 	for (int i = 0; i < count; ++i) {
 		const Segment& g  = joints.segments[i];
@@ -261,12 +260,18 @@ void BlockAssembly::listSides()
 			for (int block : joints.segments[i].block)
 				++first[block + 1];
 	std::partial_sum(first.begin(), first.end(), first.begin());
-	joints.sides.resize(first.back());
+	joints.sideNode.resize(first.back());
+	joints.sideOf.assign(joints.count(), { first.back(), first.back() });
+	forces.side.assign(first.back() + 1, { Vec2::Zero(), Vec2::Zero() });
 	std::vector<int> next(first.begin(), first.end() - 1);
 	for (int i = 0; i < joints.count(); ++i)
 		if (!state.released[i])
-			for (int side : { 0, 1 })
-				joints.sides[next[joints.segments[i].block[side]]++] = 2 * i + side;
+			for (int side : { 0, 1 }) {
+				const Segment& g       = joints.segments[i];
+				const int      at      = next[g.block[side]]++;
+				joints.sideOf[i][side] = at;
+				joints.sideNode[at]    = { g.node[2 * side], g.node[2 * side + 1] };
+			}
 }
 
 void BlockAssembly::rebuild()

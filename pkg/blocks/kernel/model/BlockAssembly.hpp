@@ -30,13 +30,14 @@ struct JointHistory {
 /// Computed anew in each step.
 struct Forces {
 	std::vector<Vec2>                nodal; ///< unbalanced force of every grid point: zones, joints, contacts, loads [N]
-	std::vector<std::array<Vec2, 4>> joint; ///< of every joint, on a1, b1, a2, b2 [N]
+	std::vector<std::array<Vec2, 2>> side;  ///< of the joint on every side's two grid points, block by block; one more for released joints [N]
 	std::vector<char>                broke; ///< batch of joints -> whether a contact point of it has broken lately
 
 	// ---- only with energy accounts
-	std::vector<Dissipated> dissipated; ///< by the joints of every batch
-	std::vector<Real>       zoneEnergy; ///< of every block's zones [J]
-	JointHistory            before;     ///< where a law does not book what it dissipates itself
+	std::vector<Dissipated> dissipated;  ///< by the joints of every batch
+	std::vector<Real>       jointEnergy; ///< of every batch's joints [J]
+	std::vector<Real>       zoneEnergy;  ///< of every block's zones [J]
+	JointHistory            before;      ///< where a law does not book what it dissipates itself
 };
 
 struct BlockAssembly {

@@ -51,8 +51,9 @@ struct Joints {
 	JointColumns                    columns;
 	std::vector<int>                effective;       ///< kind of each joint, or releasedKind
 	std::vector<int>                kindOfBatch;     ///< the kind of all joints in a batch, or mixedKinds
-	std::vector<int>                firstSide { 0 }; ///< block -> its range in sides
-	std::vector<int>                sides;           ///< 2 joint + side, in the order in which a block gathers them; not of released joints
+	std::vector<int>                firstSide { 0 }; ///< block -> its range of sides, in the order in which it gathers them
+	std::vector<std::array<int, 2>> sideNode;        ///< the two grid points of every side
+	std::vector<std::array<int, 2>> sideOf;          ///< joint -> its two sides; those of released joints are one past the last
 
 	static constexpr int batch = 32; ///< so many joints at a time
 

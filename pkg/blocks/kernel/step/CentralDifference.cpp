@@ -33,59 +33,93 @@ namespace {
 
 	constexpr int lanes = 8; ///< sums are taken in so many parts, whatever the width of the processor
 
+	struct Terms {
+		static constexpr int piece = 64; ///< so many degrees of freedom at a time: first their terms side by side, then the sums
+
+		alignas(64) Real dampingBefore[piece], dampingAfter[piece], kinetic[piece], viscousPower[piece], kineticTurn[piece];
+	};
+
+	struct LaneSum {
+		Real lane[lanes] = {};
+
+		inline __attribute__((always_inline)) void add(const Real* terms, int count)
+		{
+			int i = 0;
+			for (; i + lanes <= count; i += lanes)
+				for (int k = 0; k < lanes; ++k)
+					lane[k] += terms[i + k];
+			for (int k = 0; i < count; ++i, ++k)
+				lane[k] += terms[i];
+		}
+		Real total() const
+		{
+			Real sum = 0;
+			for (Real part : lane)
+				sum += part;
+			return sum;
+		}
+	};
+
 	/// Degrees of freedom [first, last); sums are taken only where somebody reads them.
 	template <Damping::Kind kind, bool account>
 	inline __attribute__((always_inline)) Sums advanceRange(const Arrays& a, int first, int last, const Rates& r)
 	{
-		constexpr bool sums      = account || kind == Damping::Kind::adaptive;
+		constexpr bool adaptive  = kind == Damping::Kind::adaptive;
 		Real* const __restrict u = a.u, * const __restrict v = a.v;
 		const Real* const __restrict f = a.f, * const __restrict w = a.w;
-		const auto velocityAfter = [&](int i) {
-			const Real before = v[i];
-			if constexpr (kind == Damping::Kind::none) return before + r.dt * w[i] * f[i];
+		const Real dt = r.dt, halfStep = r.dt / 2, perStep = 1 / r.dt, alpha = r.alpha, keep = r.keep,
+			   push          = r.push; // copies, which no store can change
+		const auto velocityAfter = [=](Real before, Real force, Real mobility) {
+			if constexpr (kind == Damping::Kind::none) return before + dt * mobility * force;
 			if constexpr (kind == Damping::Kind::local) { // the sign is that of the velocity the step would have without damping
-				const Real ahead  = before + r.dt / 2 * w[i] * f[i];
-				const Real damped = f[i] - r.alpha * std::copysign(std::abs(f[i]), ahead);
-				return before + r.dt * w[i] * damped;
+				const Real ahead  = before + halfStep * mobility * force;
+				const Real damped = force - alpha * std::copysign(std::abs(force), ahead);
+				return before + dt * mobility * damped;
 			}
-			if constexpr (kind == Damping::Kind::adaptive) return w[i] > 0 ? r.keep * before + r.push * w[i] * f[i] : before;
+			if constexpr (adaptive) {
+				const Real after = keep * before + push * mobility * force;
+				return mobility > 0 ? after : before;
+			}
 		};
-		if constexpr (!sums) {
+		if constexpr (!account && !adaptive) {
 #pragma GCC ivdep
 			for (int i = first; i < last; ++i) {
-				const Real after = velocityAfter(i);
+				const Real after = velocityAfter(v[i], f[i], w[i]);
 				v[i]             = after;
-				u[i] += r.dt * after;
+				u[i] += dt * after;
 			}
 			return {};
 		} else {
-			Real       dampingBefore[lanes] = {}, dampingAfter[lanes] = {}, kinetic[lanes] = {}, viscousPower[lanes] = {}, kineticTurn[lanes] = {};
-			const auto advance = [&](int i, int lane) {
-				const Real before = v[i], after = velocityAfter(i);
-				v[i] = after;
-				u[i] += r.dt * after;
-				const Real m = w[i] > 0 ? 1 / w[i] : 0; // prescribed motion: its work is the group's
-				if constexpr (account) {
-					const Real drag = (w[i] > 0 ? f[i] : 0) - m * (after - before) / r.dt;
-					dampingBefore[lane] += drag * before / 2;
-					dampingAfter[lane] += drag * after / 2;
-					kinetic[lane] += m * after * before / 2;
+			LaneSum dampingBefore, dampingAfter, kinetic, viscousPower, kineticTurn;
+			Terms   terms;
+			for (int begin = first; begin < last; begin += Terms::piece) {
+				const int count = std::min(Terms::piece, last - begin);
+#pragma GCC ivdep
+				for (int k = 0; k < count; ++k) {
+					const Real before = v[begin + k], force = f[begin + k], mobility = w[begin + k];
+					const Real after = velocityAfter(before, force, mobility);
+					v[begin + k]     = after;
+					u[begin + k] += dt * after;
+					const Real inverse = 1 / mobility; // infinite where motion is prescribed, whose work is the group's
+					const Real m       = mobility > 0 ? inverse : 0;
+					if constexpr (account) {
+						const Real free        = mobility > 0 ? force : 0;
+						const Real drag        = free - m * (after - before) * perStep;
+						terms.dampingBefore[k] = drag * before / 2;
+						terms.dampingAfter[k]  = drag * after / 2;
+						terms.kinetic[k]       = m * after * before / 2;
+					}
+					if constexpr (adaptive) {
+						terms.viscousPower[k] = m * after * after;
+						terms.kineticTurn[k]  = std::abs(m * (after * after - before * before) / 2);
+					}
 				}
-				if constexpr (kind == Damping::Kind::adaptive) {
-					viscousPower[lane] += m * after * after;
-					kineticTurn[lane] += std::abs(m * (after * after - before * before) / 2);
-				}
-			};
-			int i = first;
-			for (; i + lanes <= last; i += lanes)
-				for (int lane = 0; lane < lanes; ++lane)
-					advance(i + lane, lane);
-			for (; i < last; ++i)
-				advance(i, i - first - (i - first) / lanes * lanes);
-			Sums sum;
-			for (int lane = 0; lane < lanes; ++lane)
-				sum += { dampingBefore[lane], dampingAfter[lane], kinetic[lane], viscousPower[lane], kineticTurn[lane] };
-			return sum;
+				if constexpr (account)
+					dampingBefore.add(terms.dampingBefore, count), dampingAfter.add(terms.dampingAfter, count),
+						kinetic.add(terms.kinetic, count);
+				if constexpr (adaptive) viscousPower.add(terms.viscousPower, count), kineticTurn.add(terms.kineticTurn, count);
+			}
+			return { dampingBefore.total(), dampingAfter.total(), kinetic.total(), viscousPower.total(), kineticTurn.total() };
 		}
 	}
 

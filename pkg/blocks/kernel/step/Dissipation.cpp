@@ -23,6 +23,18 @@ Dissipated dissipatedIn(const BlockAssembly& a, int first, int count, const Batc
 	return sum;
 }
 
+Real heldIn(const BlockAssembly& a, int first, int count, const JointBatch& b)
+{
+	Real sum = 0;
+	for (int i = 0; i < count; ++i) {
+		if (a.state.released[first + i] || a.joints.kind[first + i] == 0) continue;
+		const JointParams& joint = a.joints.of(first + i);
+		for (int k : { 0, 1 })
+			sum += a.joints.columns.area[first + i] * storedEnergy(joint, b.sigma[k][i], b.tau[k][i]);
+	}
+	return sum;
+}
+
 void bookDissipation(BlockAssembly& a)
 {
 	for (const Dissipated& d : a.forces.dissipated)
@@ -33,6 +45,7 @@ void bookDissipation(BlockAssembly& a, const JointHistory& history)
 {
 	const State& s = a.state;
 	a.forces.dissipated.assign(a.forces.broke.size(), {});
+	a.forces.jointEnergy.clear(); // nobody has kept it
 	JointBatch  b;
 	BatchBefore before;
 	for (size_t batch = 0; batch < a.forces.dissipated.size(); ++batch) {

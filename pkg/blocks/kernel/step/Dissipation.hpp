@@ -29,6 +29,9 @@ struct BatchBefore {
 /// Of joints first, first + 1, ..., whose new stresses are in the batch and whose new states are in the assembly [J].
 Dissipated dissipatedIn(const BlockAssembly&, int first, int count, const BatchBefore&, const JointBatch&);
 
+/// What the springs of joints first, first + 1, ... hold, with the stresses in the batch [J].
+Real heldIn(const BlockAssembly&, int first, int count, const JointBatch&);
+
 /// Adds what the batches dissipated to the accounts, in their order.
 void bookDissipation(BlockAssembly&);
 

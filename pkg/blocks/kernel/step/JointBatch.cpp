@@ -56,6 +56,23 @@ WIDE int elasticStresses(int count, JointBatch& b)
 	return int(beyond);
 }
 
+WIDE Real elasticEnergy(const JointColumns& columns, int first, int count, const JointBatch& b)
+{
+	const Real*   area       = columns.area.data() + first;
+	constexpr int lanes      = 8; // sums are taken in so many parts, whatever the width of the processor
+	Real          sum[lanes] = {}, energy[JointBatch::size];
+#pragma GCC ivdep
+	for (int i = 0; i < count; ++i)
+		energy[i] = area[i]
+			* (b.sigma[0][i] * b.opening[0][i] + b.tau[0][i] * b.slip[0][i] + b.sigma[1][i] * b.opening[1][i] + b.tau[1][i] * b.slip[1][i]);
+	for (int i = count; i < JointBatch::size; ++i)
+		energy[i] = 0;
+	for (int i = 0; i < JointBatch::size; i += lanes)
+		for (int lane = 0; lane < lanes; ++lane)
+			sum[lane] += energy[i + lane];
+	return (((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]))) / 2;
+}
+
 WIDE void loadEdges(const JointColumns& columns, int first, int count, JointBatch& b)
 {
 	const Real *area = columns.area.data() + first, *s1[2], *s2[2];

@@ -34,6 +34,9 @@ void moveJoints(const JointColumns&, int first, int count, JointBatch&);
 /// Stresses as long as nothing breaks, for joints that have no slip and no uplift; how many contact points this takes beyond a strength.
 int elasticStresses(int count, JointBatch&);
 
+/// What the springs of joints hold that are all elastic [J].
+Real elasticEnergy(const JointColumns&, int first, int count, const JointBatch&);
+
 /// Forces from stresses.
 void loadEdges(const JointColumns&, int first, int count, JointBatch&);
 

@@ -40,6 +40,13 @@ Vec2 contactPosition(const BlockAssembly& a, int point)
 	return (a.position(g.node[0]) + g.s1[k] * a.between(g.node[0], g.node[1]) + a.position(g.node[2]) + g.s2[k] * a.between(g.node[2], g.node[3])) / 2;
 }
 
+std::array<Vec2, 4> forcesOf(const BlockAssembly& a, int joint)
+{
+	const auto& side  = a.joints.sideOf[joint];
+	const auto &first = a.forces.side[side[0]], &second = a.forces.side[side[1]];
+	return { first[0], first[1], second[0], second[1] };
+}
+
 void updateKinematics(BlockAssembly& a, JointRange range)
 {
 	JointBatch b;
@@ -133,10 +140,11 @@ namespace step {
 
 	void storeForces(BlockAssembly& a, int first, int count, const JointBatch& b)
 	{
+		auto* const sides = a.forces.side.data();
 		for (int i = 0; i < count; ++i) {
-			auto& out = a.forces.joint[first + i];
-			for (int c = 0; c < 4; ++c)
-				out[c] = { b.fx[c][i], b.fy[c][i] };
+			const auto& side = a.joints.sideOf[first + i];
+			sides[side[0]]   = { Vec2(b.fx[0][i], b.fy[0][i]), Vec2(b.fx[1][i], b.fy[1][i]) };
+			sides[side[1]]   = { Vec2(b.fx[2][i], b.fy[2][i]), Vec2(b.fx[3][i], b.fy[3][i]) };
 		}
 	}
 

@@ -21,6 +21,9 @@ JointFrame frameOf(const BlockAssembly&, int joint);
 /// A contact point, midway between its two hosts [m].
 Vec2 contactPosition(const BlockAssembly&, int point);
 
+/// What a joint that is not released exerts on a1, b1, a2, b2 [N].
+std::array<Vec2, 4> forcesOf(const BlockAssembly&, int joint);
+
 /// Opening and slip at all contact points of a range, into the state.
 void updateKinematics(BlockAssembly&, JointRange);
 
@@ -98,7 +101,7 @@ namespace step {
 
 	template <class Law> void advanceAll(BlockAssembly& a, const Law& law, bool account, [[maybe_unused]] int threads)
 	{
-		if (account) a.forces.dissipated.assign(a.forces.broke.size(), {});
+		if (account) a.forces.dissipated.assign(a.forces.broke.size(), {}), a.forces.jointEnergy.assign(a.forces.broke.size(), 0);
 		const int batches = int(a.forces.broke.size());
 #pragma omp parallel num_threads(threads) if (threads > 1)
 		{
@@ -111,6 +114,8 @@ namespace step {
 				BatchBefore before;
 				if (account) before.take(a.state, first, count);
 				const bool elastic = step::advanceBatch(a, first, count, law, b);
+				if (account)
+					a.forces.jointEnergy[batch] = elastic ? elasticEnergy(a.joints.columns, first, count, b) : heldIn(a, first, count, b);
 				if (account && !elastic) a.forces.dissipated[batch] = dissipatedIn(a, first, count, before, b);
 				loadEdges(a.joints.columns, first, count, b);
 				step::storeMotion(a, first, count, b);

@@ -17,13 +17,11 @@ namespace {
 		else
 			std::copy(a.supports.load.begin() + node, a.supports.load.begin() + nodeEnd, force + node);
 
-		const int*  sides  = a.joints.sides.data();
-		const auto* nodes  = a.joints.node.data();
-		const auto* forces = a.forces.joint.data();
+		const auto* nodes = a.joints.sideNode.data();
+		const auto* sides = a.forces.side.data();
 		for (int i = a.joints.firstSide[first], end = a.joints.firstSide[last]; i < end; ++i) {
-			const int joint = sides[i] >> 1, corner = 2 * (sides[i] & 1);
-			force[nodes[joint][corner]] += forces[joint][corner];
-			force[nodes[joint][corner + 1]] += forces[joint][corner + 1];
+			force[nodes[i][0]] += sides[i][0];
+			force[nodes[i][1]] += sides[i][1];
 		}
 		if (!a.contacts.order.empty())
 			for (int block = first; block < last; ++block)
