@@ -99,8 +99,9 @@ def main(arguments):
 				rows[-2]["ratio"] = statistics.median(ratios)
 			for row in rows[-len(builds):]:
 				print(
-					f"{row['build']:6} {feature:8} {row['zones']:8.0f} zones {row['us']:10.1f} us a step, wall {row['wall_us']:10.1f}, {row['ns_zone']:6.1f} ns a zone, set-up"
-					f" {row['setup_s']:5.2f} s, {row['rss'] / row['zones']:8.0f} bytes a zone with YADE's own" +
+					f"{row['build']:6} {feature:8} {row['zones']:8.0f} zones {row['us']:10.1f} us a step,"
+					f" wall {row['wall_us']:10.1f}, {row['ns_zone']:6.1f} ns a zone, set-up {row['setup_s']:5.2f} s,"
+					f" {row['rss'] / row['zones']:8.0f} bytes a zone with YADE's own" +
 					(f", {row['ratio']:.2f} of the other" if "ratio" in row else ""), flush=True
 				)
 	with open(folder / "cost.csv", "w", newline="") as file:

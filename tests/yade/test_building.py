@@ -1,11 +1,8 @@
 # yade-blocks, GPL-2.0-or-later
 """Blocks are what was asked for: edges divided, holes empty, overlaps refused, and a refusal adds nothing."""
-import itertools
-
 import pytest
 
 from scenes import *
-from yadeblocks.specimen import edgesWhere
 
 R = rectangle
 
@@ -86,7 +83,7 @@ def test_cantileverWithAWeightlessNeighbour():
 		O.materials.append(BlockMat(label='light', young=20e9, poisson=0.2, density=1e-6))
 		m = BlockModel(thickness=1)
 		m.addRegion(R(.95, .1, 1, .15), 'light', zoneSize=.05)
-		beam = m.addRegion(R(0, 0, 1, .1), 'unit', zoneSize=.025)
+		m.addRegion(R(0, 0, 1, .1), 'unit', zoneSize=.025)
 		m.bond()
 		m.drive('clamp', nodesWhere(m, lambda x, y: x < 1e-9), 'xy')
 		m.gravity((0, -9.81))

@@ -18,12 +18,13 @@ quick = { # some seconds each, with cracks
 }
 kills = int(os.environ.get('KILLS', 5))
 
-# A fault that is known: tension and shear that were killed and resumed have come to other results than runs that were left alone, in some of the tries.
-# The cause is not found; the model itself, saved and loaded in the middle, goes on with the same bits (test_step.py).
+
+# A fault that is known: tension and shear that were killed and resumed have come to other results than runs that were left alone,
+# in some of the tries. The cause is not found; the model itself, saved and loaded in the middle, goes on with the same bits (test_step.py).
 @pytest.mark.xfail(reason='a resumed run does not always come to the same result', strict=False)
 @pytest.mark.parametrize('name', list(quick))
 def test_killedAndResumed(name, tmp_path):
-	"""Killed at random moments, again and again; each time resume=true goes on. In the end nothing but the cost tells it from the run that was left alone."""
+	"""Killed at random moments again and again; each time resume=true goes on. In the end nothing but the cost tells it from the run left alone."""
 	whole, torn, dice = tmp_path / 'whole', tmp_path / 'torn', random.Random(1)
 	whole.mkdir(), torn.mkdir()
 	code, text = Process(whole, name, *quick[name]).wait()

@@ -4,7 +4,7 @@ that it had when this was written."""
 import numpy as np
 import pytest
 
-import yadeblocks
+import yadeblocks # noqa: F401 (it loads the plugin)
 from yade import *
 from yadeblocks.engines import engineList, loopList
 from yadeblocks.specimen import nodesWhere, rectangle
