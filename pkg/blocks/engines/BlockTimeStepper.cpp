@@ -5,13 +5,13 @@ namespace yade {
 
 BlockTimeStepper::~BlockTimeStepper() = default;
 
-void BlockTimeStepper::computeTimeStep(Scene* scene)
+void BlockTimeStepper::computeTimeStep(Scene* ofStep)
 {
 	visibly([&] {
-		auto [model, changed] = modelOf(scene);
+		auto [model, changed] = modelOf(ofStep);
 		model.throwComplaint();
 		if (changed) length.newScene();
-		stableStep = length.adjust(scene, model, safety, quasiStatic, "BlockTimeStepper");
+		stableStep = length.adjust(ofStep, model, safety, quasiStatic, "BlockTimeStepper");
 	});
 }
 

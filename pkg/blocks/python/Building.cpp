@@ -39,10 +39,10 @@ namespace {
 	/// A region on its way to become blocks: checked when it is made, and all or none of its blocks are added.
 	class Addition {
 	public:
-		Addition(BlockModel& model, const char* method, blocks::Polygon region, const string& material)
-			: region(std::move(region))
-			, model(model)
-			, material(material)
+		Addition(BlockModel& m, const char* method, blocks::Polygon outline, const string& label)
+			: region(std::move(outline))
+			, model(m)
+			, material(label)
 		{
 			model.requireOpen(method);
 			trial.thickness = model.assembly.thickness;

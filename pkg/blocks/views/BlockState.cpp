@@ -14,15 +14,15 @@ Vector3r BlockState::centroid() const
 
 Vector3r BlockState::velocity() const
 {
-	Vector3r sum  = Vector3r::Zero();
-	Real     mass = 0;
+	Vector3r sum   = Vector3r::Zero();
+	Real     total = 0;
 	if (!model) return sum;
 	const auto& a = model->assembly;
 	for (int n = a.mesh.firstNode[index]; n < a.mesh.firstNode[index + 1]; ++n) {
 		sum += a.mesh.mass[n] * Vector3r(a.state.velocity[n].x(), a.state.velocity[n].y(), 0);
-		mass += a.mesh.mass[n];
+		total += a.mesh.mass[n];
 	}
-	return sum / mass;
+	return sum / total;
 }
 
 void BlockState::refuse(const py::object&)

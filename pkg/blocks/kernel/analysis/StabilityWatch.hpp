@@ -31,7 +31,7 @@ public:
 		bool        stable = true;
 		int         block  = -1; ///< the one that moves fastest, the first that is not a number, one of two that overlap
 		std::string reason;
-		std::string warning; ///< to be shown; empty if there is none, and after the first one
+		std::string warning {}; ///< to be shown; empty if there is none, and after the first one
 	};
 
 	/// To be called every so many steps, between forces and motion.

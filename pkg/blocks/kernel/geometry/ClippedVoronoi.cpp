@@ -36,9 +36,9 @@ namespace {
 
 	class Clipping {
 	public:
-		Clipping(const Walls& walls, const std::vector<Vec2>& seeds)
-			: walls(walls)
-			, seeds(seeds)
+		Clipping(const Walls& w, const std::vector<Vec2>& s)
+			: walls(w)
+			, seeds(s)
 		{
 			for (size_t k = 0; k < walls.corner.size(); ++k) {
 				exactCorner.emplace_back(walls.corner[k].x(), walls.corner[k].y());

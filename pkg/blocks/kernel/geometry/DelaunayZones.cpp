@@ -14,8 +14,8 @@ namespace {
 	/// outline it grows by half the distance.
 	class Sizing {
 	public:
-		Sizing(const Zones& outline, Real zoneSize)
-			: zoneSize(zoneSize)
+		Sizing(const Zones& outline, Real largest)
+			: zoneSize(largest)
 		{
 			for (const auto& ring : outline.rings)
 				for (size_t k = 0, n = ring.size(); k < n; ++k) {
@@ -50,10 +50,10 @@ namespace {
 	/// Adds points inside too large zones, the largest first, as long as they lie in the block and leave the outline alone.
 	class Refinement {
 	public:
-		Refinement(Mesh& mesh, Zones& zones, const Sizing& sizing)
-			: mesh(mesh)
-			, zones(zones)
-			, sizing(sizing)
+		Refinement(Mesh& m, Zones& z, const Sizing& s)
+			: mesh(m)
+			, zones(z)
+			, sizing(s)
 		{
 			for (auto f = mesh.finite_faces_begin(); f != mesh.finite_faces_end(); ++f)
 				consider(f);

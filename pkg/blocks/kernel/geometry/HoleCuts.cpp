@@ -14,9 +14,9 @@ namespace {
 	/// The direction is none that a user would draw, so that cuts rarely run along edges.
 	class HoleCutter {
 	public:
-		HoleCutter(Diagram& d, const Walls& walls, Real size)
-			: d(d)
-			, walls(walls)
+		HoleCutter(Diagram& diagram, const Walls& w, Real size)
+			: d(diagram)
+			, walls(w)
 			, tolerance(coincident * size)
 		{
 		}

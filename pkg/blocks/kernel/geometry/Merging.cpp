@@ -19,10 +19,10 @@ namespace {
 	/// touches stays a valid cell; otherwise nothing changes.
 	class Merger {
 	public:
-		Merger(Diagram& d, const Walls& walls, Real shortest, Real size)
-			: d(d)
-			, walls(walls)
-			, shortest(shortest)
+		Merger(Diagram& diagram, const Walls& w, Real shortestEdge, Real size)
+			: d(diagram)
+			, walls(w)
+			, shortest(shortestEdge)
 			, tolerance(coincident * size)
 		{
 			around.resize(d.position.size());

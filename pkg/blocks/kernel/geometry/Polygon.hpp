@@ -8,9 +8,9 @@ namespace blocks {
 /// Area, centroid and second moment of what lies to the left of directed edges, which are added one by one and must make closed lines.
 class AreaSum {
 public:
-	/// `origin` is a point nearby, so that far from (0, 0) nothing is lost in rounding [m].
-	explicit AreaSum(const Vec2& origin)
-		: origin(origin)
+	/// From a point nearby, so that far from (0, 0) nothing is lost in rounding [m].
+	explicit AreaSum(const Vec2& nearby)
+		: origin(nearby)
 	{
 	}
 	void add(const Vec2& a, const Vec2& b)

@@ -44,7 +44,7 @@ void triangulateOutline(Mesh& mesh, const Zones& zones)
 	for (const auto& ring : zones.rings) // the material is on the left of every outline edge; from there to where no outline is crossed
 		for (size_t k = 0, n = ring.size(); k < n; ++k) {
 			Mesh::Face_handle f;
-			int               i;
+			int               i = 0;
 			mesh.is_edge(node[ring[k]], node[ring[(k + 1) % n]], f, i);
 			if (f->vertex(Mesh::ccw(i)) != node[ring[k]]) f = f->neighbor(i);
 			enter(f);

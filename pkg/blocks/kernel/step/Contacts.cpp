@@ -101,14 +101,14 @@ WIDE void advanceContact(BlockAssembly& a, int contact, Real dt)
 			if (pressure > 0 && area > 0) {
 				const EdgeEnd end = edgeEnd(x, g, k);
 				Real          ds  = 0;
-				for (int i = 0; i < 4; ++i)
-					ds += dt * end.slipGradient[i].dot(v[i]);
+				for (int corner = 0; corner < 4; ++corner)
+					ds += dt * end.slipGradient[corner].dot(v[corner]);
 				const Real old = e.slip[k] * regrown, limit = (joint.cohesionResidual + pressure * joint.tanPhiResidual) / joint.ks;
 				e.slip[k]       = std::clamp(old + ds, -limit, limit);
 				const Real drag = joint.ks * area * e.slip[k];
 				work            = (joint.ks * area * old + drag) / 2 * ds;
-				for (int i = 0; i < 4; ++i)
-					e.force[i] -= drag * end.slipGradient[i];
+				for (int corner = 0; corner < 4; ++corner)
+					e.force[corner] -= drag * end.slipGradient[corner];
 			} else
 				e.slip[k] = 0;
 			c.friction += work + before - joint.ks * area * e.slip[k] * e.slip[k] / 2;

@@ -195,11 +195,11 @@ public:                                                                         
                                                                                                                                                                \
 	template <class Visitor> static void visitAttributes([[maybe_unused]] Visitor&& visit) { BOOST_PP_SEQ_FOR_EACH(YADE_API_VISIT, Class, attributes) }    \
                                                                                                                                                                \
-	void pySetAttr(const std::string& name, const boost::python::object& value) override                                                                   \
+	void pySetAttr(const std::string& attributeName, const boost::python::object& value) override                                                          \
 	{                                                                                                                                                      \
-		::yade::api::SetAttribute<Class> set { *this, name, value };                                                                                   \
+		::yade::api::SetAttribute<Class> set { *this, attributeName, value };                                                                          \
 		visitAttributes(set);                                                                                                                          \
-		if (!set.found) Base::pySetAttr(name, value);                                                                                                  \
+		if (!set.found) Base::pySetAttr(attributeName, value);                                                                                         \
 	}                                                                                                                                                      \
 	boost::python::dict pyDict() const override                                                                                                            \
 	{                                                                                                                                                      \
