@@ -26,16 +26,16 @@ EventPath::EventPath(const LinearModel& model, Release how, EventLimits within)
 	setUp();
 	factorise();
 	measure();
+	jointsAtStart = jointEnergy();
 }
 
 void EventPath::setUp()
 {
 	const size_t count = m.points.size();
 	is.u               = Vector::Zero(m.unknowns);
-	zonesTimesU        = is.u;
 	anchorStiffness = anchorOrigin = is.u;
 	is.modes.resize(count);
-	un.resize(count), us.resize(count), excess.resize(count), turns.assign(count, 0);
+	un.resize(count), us.resize(count), excess.resize(count), turns.assign(count, 0), alongN.resize(count), alongT.resize(count);
 	unbalance = m.load - m.zoneForce;
 	for (size_t i = 0; i < count; ++i) {
 		const LinearPoint& p    = m.points[i];
@@ -60,12 +60,12 @@ void EventPath::setUp()
 	// what rounding of positions leaves, 1e3 eps x stiffness x the size of a specimen, is no load; it is cancelled with the first residual
 	const Real rounding = 1e-10 * forceScale;
 	if (m.unknowns > 0 && unbalance.cwiseAbs().maxCoeff() > rounding)
-		r = 1, settling = true;
+		r = 1, settling = unbalanced = true;
 	else
 		unbalance.setZero();
 }
 
-/// Opening, slip and memory of all points, and what the zones do, at the present u and lambda.
+/// Opening, slip and memory of all points at the present u and lambda.
 void EventPath::measure()
 {
 	for (size_t i = 0; i < m.points.size(); ++i) {
@@ -79,12 +79,6 @@ void EventPath::measure()
 		un[i] = n, us[i] = t;
 		rememberSlip(p.joint, is.modes[i], n, t);
 	}
-	zonesTimesU.setZero();
-	for (int j = 0; j < m.zones.outerSize(); ++j)
-		for (Eigen::SparseMatrix<Real>::InnerIterator k(m.zones, j); k; ++k) {
-			zonesTimesU[k.row()] += k.value() * is.u[j];
-			if (k.row() != j) zonesTimesU[j] += k.value() * is.u[k.row()];
-		}
 }
 
 Vector EventPath::loadForce() const
@@ -109,8 +103,9 @@ Vector EventPath::releaseForce() const
 /// What is not in equilibrium: rounding, and what small pivots made of it.
 Vector EventPath::residualForce()
 {
-	Vector f     = m.load + is.lambda * m.loadGrowth - m.zoneForce - zonesTimesU - is.lambda * m.zonesDriven - r * unbalance;
-	Real   scale = forceScale;
+	Vector f = m.load + is.lambda * m.loadGrowth - m.zoneForce - is.lambda * m.zonesDriven - r * unbalance;
+	f.noalias() -= m.zones.selfadjointView<Eigen::Upper>() * is.u;
+	Real scale = forceScale;
 	for (size_t i = 0; i < m.points.size(); ++i) {
 		const LinearPoint& p = m.points[i];
 		if (p.area == 0) continue;
@@ -130,58 +125,59 @@ Vector EventPath::residualForce()
 	return f;
 }
 
-void EventPath::correct(const Vector& by)
+/// Both directions solved anew, and what rounding has left put right.
+void EventPath::refresh()
 {
-	is.u += by;
 	measure();
+	Vector residual = residualForce(), load = loadForce();
+	solvePair(load, residual);
+	is.u += residual;
+	measure();
+	onLoad.u = std::move(load);
+	spread(onLoad, 1);
+	if (r > 0) {
+		Vector given = releaseForce(), none = Vector::Zero(m.unknowns);
+		solvePair(given, none);
+		onRelease.u = std::move(given);
+		spread(onRelease, 0);
+	}
+	onLoad.known = true, onRelease.known = r > 0;
+	changes = 0;
 }
 
-/// Displacements per load factor, or per share of the excess given away; with what rounding has left put right on the way.
+/// How everything moves per load factor, or per share of the excess given away.
 void EventPath::chooseDirection(Phase phase)
 {
-	Vector residual = residualForce();
-	Vector main     = phase == Phase::load ? loadForce() : releaseForce();
-	Vector fix      = residual;
-	solvePair(main, fix);
-	correct(fix);
-	along.u      = std::move(main);
-	along.lambda = phase == Phase::load ? 1 : 0;
-	spread(along);
+	if (changes >= refreshAfter || !onLoad.known || (r > 0 && !onRelease.known)) refresh();
+	const bool loading = phase == Phase::load;
+	byLoad = loading, byRelease = !loading;
 	breaksNow = -1;
-	if (phase == Phase::load)
+	if (loading)
 		held.clear();
 	else if (!held.empty())
-		holdBack(along);
+		holdBack();
 
 	constexpr Real rounding = 1e-11; // of a sum of eight products of displacements, and of the solution
 	Real           largest  = 0;
-	for (size_t i = 0; i < m.points.size(); ++i)
-		largest = std::max({ largest, std::abs(along.n[i]), std::abs(along.t[i]) });
+	for (size_t i = 0; i < m.points.size(); ++i) {
+		alongN[i] = alongT[i] = 0;
+		if (byLoad != 0) alongN[i] = byLoad * onLoad.n[i], alongT[i] = byLoad * onLoad.t[i];
+		if (byRelease != 0) alongN[i] += onRelease.n[i], alongT[i] += onRelease.t[i];
+		largest = std::max({ largest, std::abs(alongN[i]), std::abs(alongT[i]) });
+	}
 	still = rounding * largest;
 }
 
 /// Lets the load fall so that the held points keep to their strength; or names one of them that must break.
-void EventPath::holdBack(Direction& d)
+void EventPath::holdBack()
 {
 	constexpr Real rounding = 1e-9;
-	Direction      load;
-	load.u      = loadForce();
-	load.lambda = 1;
-	Vector none = Vector::Zero(m.unknowns);
-	solvePair(load.u, none);
-	spread(load);
-
-	Real fall = 0;
-	auto use  = [&](const Direction& of, const Held& h) { return useOf(m.points[h.point].joint, h.what, of.n[h.point], of.t[h.point]); };
+	auto           use      = [&](const Direction& d, const Held& h) { return useOf(m.points[h.point].joint, h.what, d.n[h.point], d.t[h.point]); };
 	for (const Held& h : held)
-		if (use(load, h) > 0) fall = std::min(fall, -use(d, h) / use(load, h));
-	d.u += fall * load.u;
-	d.lambda = fall;
-	for (size_t i = 0; i < m.points.size(); ++i)
-		d.n[i] += fall * load.n[i], d.t[i] += fall * load.t[i];
+		if (use(onLoad, h) > 0) byLoad = std::min(byLoad, -use(onRelease, h) / use(onLoad, h));
 	std::vector<Held> still_;
 	for (const Held& h : held) {
-		const Real left = use(d, h), scale = std::abs(fall * use(load, h)) + std::abs(left - fall * use(load, h));
+		const Real given = use(onRelease, h), taken = byLoad * use(onLoad, h), left = given + taken, scale = std::abs(given) + std::abs(taken);
 		if (left > rounding * scale && (breaksNow < 0 || h.point < breaksNow)) breaksNow = h.point;
 		if (left > -rounding * scale) still_.push_back(h);
 	}
@@ -193,7 +189,7 @@ bool EventPath::step(Phase phase, Real until)
 {
 	if (++stepCount - notedAt > limits.pieces) return end("no equilibrium within " + std::to_string(limits.pieces) + " straight pieces");
 	chooseDirection(phase);
-	if (!along.u.allFinite()) return end("the stiffness is singular");
+	if (!std::isfinite(byLoad) || !onLoad.u.allFinite() || (byRelease != 0 && !onRelease.u.allFinite())) return end("the stiffness is singular");
 	if (breaksNow >= 0) {
 		PointEvent how = PointEvent::none;
 		for (const Held& h : held)
@@ -212,18 +208,18 @@ bool EventPath::step(Phase phase, Real until)
 		PointEvent except = PointEvent::none;
 		for (const Held& h : held)
 			if (h.point == i) except = h.what;
-		const PointLimit limit = nextLimit(p.joint, is.modes[i], un[i], us[i], along.n[i], along.t[i], still, except);
+		const PointLimit limit = nextLimit(p.joint, is.modes[i], un[i], us[i], alongN[i], alongT[i], still, except);
 		if (limit.at < next.at) next = limit, point = i;
 	}
 	bool loadGone = false;
-	if (along.lambda < 0 && is.lambda + next.at * along.lambda < 0) next = { is.lambda / -along.lambda, PointEvent::none }, point = -1, loadGone = true;
+	if (byLoad < 0 && is.lambda + next.at * byLoad < 0) next = { is.lambda / -byLoad, PointEvent::none }, point = -1, loadGone = true;
 	if (!std::isfinite(next.at)) return end("nothing more happens, however far the loading goes");
 
 	const Real     h = next.at, rBefore = r;
 	constexpr Real place = 1e-12; // of the largest opening or slip: nearer than that is the same place
 	Real           moved = 0, reach = 0;
 	for (size_t i = 0; i < m.points.size(); ++i) {
-		moved = std::max({ moved, std::abs(h * along.n[i]), std::abs(h * along.t[i]) });
+		moved = std::max({ moved, std::abs(h * alongN[i]), std::abs(h * alongT[i]) });
 		reach = std::max({ reach, std::abs(un[i]), std::abs(us[i]) });
 	}
 	if (moved > place * reach) {
@@ -274,64 +270,78 @@ void EventPath::transition(int i, PointEvent what)
 	const Stress       now    = stressOf(p.joint, next, un[i], us[i]);
 	if (breaks(what)) ++here.broken, broken.push_back({ i, what, is.lambda });
 
-	const Two delta = p.area * (springsOf(p.joint, next) - springsOf(p.joint, is.modes[i]));
-	changeSprings(i, delta);
-	changeFriction(i, next);
-	is.modes[i] = next;
-
 	constexpr Real rounding = 1e-12;
-	const Stress   jump { before.sigma - now.sigma, before.tau - now.tau };
+	Stress         jump { before.sigma - now.sigma, before.tau - now.tau };
 	const Real     scale = std::max({ p.joint.tension, p.joint.cohesion, std::abs(before.sigma), std::abs(before.tau) });
-	if (!(std::abs(jump.sigma) + std::abs(jump.tau) > rounding * scale)) return;
-	const Real lost = p.area * (storedEnergy(p.joint, before.sigma, before.tau) - storedEnergy(p.joint, now.sigma, now.tau));
-	if (r == 0) excessAtStart = sum.excess;
-	sum.excess += lost;
-	sum.joints -= lost;
-	if (r < 1) {
-		for (int j : giving)
-			excess[j].sigma *= r, excess[j].tau *= r;
-		unbalance *= r;
+	if (std::abs(jump.sigma) + std::abs(jump.tau) > rounding * scale) {
+		if (r == 0) {
+			excessAtStart = sum.excess;
+			onRelease.u.setZero(m.unknowns);
+			onRelease.n.assign(m.points.size(), 0), onRelease.t.assign(m.points.size(), 0);
+			onRelease.known = true;
+		} else if (r < 1) {
+			for (int j : giving)
+				excess[j].sigma *= r, excess[j].tau *= r;
+			unbalance *= r;
+			onRelease.u *= r;
+			for (size_t j = 0; onRelease.known && j < m.points.size(); ++j)
+				onRelease.n[j] *= r, onRelease.t[j] *= r;
+		}
 		r = 1;
-	}
-	if (std::find(giving.begin(), giving.end(), i) == giving.end()) giving.push_back(i);
-	excess[i].sigma += jump.sigma;
-	excess[i].tau += jump.tau;
+		sum.excess += p.area * (storedEnergy(p.joint, before.sigma, before.tau) - storedEnergy(p.joint, now.sigma, now.tau));
+		if (std::find(giving.begin(), giving.end(), i) == giving.end()) giving.push_back(i);
+		excess[i].sigma += jump.sigma;
+		excess[i].tau += jump.tau;
+	} else
+		jump = {};
+	change(i, next, jump);
+}
+
+Real EventPath::jointEnergy() const
+{
+	Real e = 0;
+	for (size_t i = 0; i < m.points.size(); ++i)
+		if (m.points[i].area > 0) {
+			const Stress s = stressOf(m.points[i].joint, is.modes[i], un[i], us[i]);
+			e += m.points[i].area * storedEnergy(m.points[i].joint, s.sigma, s.tau);
+		}
+	return e;
+}
+
+PathEnergy EventPath::energy() const
+{
+	PathEnergy   e     = sum;
+	const Vector zones = m.zones.selfadjointView<Eigen::Upper>() * is.u;
+	e.zones            = m.zoneForce.dot(is.u) + m.zoneForceDriven * is.lambda + zones.dot(is.u) / 2 + is.lambda * m.zonesDriven.dot(is.u)
+		+ m.drivenDriven * is.lambda * is.lambda / 2;
+	e.joints = jointEnergy() - jointsAtStart;
+	if (!loose.empty()) e.anchors = (is.u - anchorOrigin).cwiseAbs2().dot(anchorStiffness) / 2;
+	return e;
 }
 
 /// Moves by h along the direction and keeps the accounts. All forces are linear on the way, so means of both ends are exact.
 void EventPath::book(Real h, Real rBefore)
 {
-	const Real rMean = (rBefore + r) / 2, dLambda = h * along.lambda;
-	auto       jointEnergy = [&] {
-                Real e = 0;
-                for (size_t i = 0; i < m.points.size(); ++i)
-                        if (m.points[i].area > 0) {
-                                const Stress s = stressOf(m.points[i].joint, is.modes[i], un[i], us[i]);
-                                e += m.points[i].area * storedEnergy(m.points[i].joint, s.sigma, s.tau);
-                        }
-                return e;
-	};
-	auto zoneEnergy = [&] {
-		return m.zoneForce.dot(is.u) + m.zoneForceDriven * is.lambda + zonesTimesU.dot(is.u) / 2 + is.lambda * m.zonesDriven.dot(is.u)
-			+ m.drivenDriven * is.lambda * is.lambda / 2;
-	};
+	const Real                                                 rMean = (rBefore + r) / 2, dLambda = h * byLoad, lambda0 = is.lambda;
 	std::vector<std::pair<int, std::pair<Stress, JointState>>> sliding;
 	for (size_t i = 0; i < m.points.size(); ++i)
 		if (is.modes[i].mode == Mode::slide && m.points[i].area > 0)
 			sliding.push_back({ int(i), { stressOf(m.points[i].joint, is.modes[i], un[i], us[i]), is.modes[i].state } });
 
-	auto anchorEnergy = [&] { return loose.empty() ? 0 : (is.u - anchorOrigin).cwiseAbs2().dot(anchorStiffness) / 2; };
-
-	const Real joints0 = jointEnergy(), zones0 = zoneEnergy(), anchors0 = anchorEnergy(), lambda0 = is.lambda;
-	Real       force = reaction() / 2;
-	is.u += h * along.u;
+	Vector du = byLoad * h * onLoad.u;
+	if (byRelease != 0) du += byRelease * h * onRelease.u;
+	Real force = reaction() / 2;
+	is.u += du;
 	is.lambda += dLambda;
-	measure();
+	for (size_t i = 0; i < m.points.size(); ++i) {
+		un[i] += h * alongN[i], us[i] += h * alongT[i];
+		rememberSlip(m.points[i].joint, is.modes[i], un[i], us[i]);
+	}
 	force += reaction() / 2;
 
-	Real excessWork = rMean * h * unbalance.dot(along.u), friction = 0;
+	Real excessWork = unbalanced ? rMean * unbalance.dot(du) : 0, friction = 0;
 	for (int i : giving)
-		excessWork += rMean * h * m.points[i].area * (excess[i].sigma * along.n[i] + excess[i].tau * along.t[i]);
+		excessWork += rMean * h * m.points[i].area * (excess[i].sigma * alongN[i] + excess[i].tau * alongT[i]);
 	for (const auto& [i, before] : sliding) {
 		const Stress      now = stressOf(m.points[i].joint, is.modes[i], un[i], us[i]);
 		const JointState &was = before.second, &has = is.modes[i].state;
@@ -339,23 +349,21 @@ void EventPath::book(Real h, Real rBefore)
 			* ((before.first.tau + now.tau) / 2 * (has.slipPlastic - was.slipPlastic)
 		           + (before.first.sigma + now.sigma) / 2 * (has.uplift - was.uplift));
 	}
-	sum.work += h * (m.load + (lambda0 + is.lambda) / 2 * m.loadGrowth).dot(along.u) + (force + m.loadDriven) * dLambda;
-	grown += h * (lambda0 + is.lambda) / 2 * m.loadGrowth.dot(along.u) + force * dLambda;
-	sum.zones += zoneEnergy() - zones0;
-	sum.joints += jointEnergy() - joints0;
-	sum.anchors += anchorEnergy() - anchors0;
+	const Real pushing = (lambda0 + is.lambda) / 2 * m.loadGrowth.dot(du) + force * dLambda, work = pushing + m.load.dot(du) + m.loadDriven * dLambda;
+	sum.work += work;
+	turnover += std::abs(work);
+	grown += pushing;
 	sum.friction += friction;
 	sum.excess += excessWork;
-	const Real scale = std::abs(sum.zones) + std::abs(sum.joints) + sum.friction + std::abs(sum.excess);
-	if (scale > 0) lowestFriction = std::min(lowestFriction, friction / scale);
+	if (turnover > 0) lowestFriction = std::min(lowestFriction, friction / turnover);
 	if (r == 0) {
 		for (int i : giving)
 			excess[i] = {};
-		if (rBefore > 0 && !settling && scale > 0) lowestExcess = std::min(lowestExcess, (sum.excess - excessAtStart) / scale);
+		if (rBefore > 0 && !settling && turnover > 0) lowestExcess = std::min(lowestExcess, (sum.excess - excessAtStart) / turnover);
 		giving.clear();
-		unbalance.setZero();
+		if (unbalanced) unbalance.setZero();
 		held.clear();
-		settling = false;
+		settling = unbalanced = false;
 	}
 }
 
@@ -375,13 +383,17 @@ void EventPath::note(int point, PointEvent how)
 {
 	const bool pushed = m.unknowns > 0 && !m.loadGrowth.isZero(0);
 	notedAt           = stepCount;
-	here.lambda       = is.lambda;
-	here.force        = pushed ? is.lambda : reaction();
-	here.displacement = pushed ? m.loadGrowth.dot(is.u) : is.lambda;
-	here.point        = point;
-	here.how          = how;
-	const Vector f    = residualForce();
-	if (m.unknowns > 0 && forceScale > 0) worstResidual = std::max(worstResidual, f.cwiseAbs().maxCoeff() / forceScale);
+	measure();
+	here.lambda           = is.lambda;
+	here.force            = pushed ? is.lambda : reaction();
+	here.displacement     = pushed ? m.loadGrowth.dot(is.u) : is.lambda;
+	here.point            = point;
+	here.how              = how;
+	constexpr Real enough = 1e-11; // then what rounding has left is put right with the next direction
+	const Vector   f      = residualForce();
+	const Real     left   = m.unknowns > 0 && forceScale > 0 ? f.cwiseAbs().maxCoeff() / forceScale : 0;
+	worstResidual         = std::max(worstResidual, left);
+	if (!(left < enough)) changes = refreshAfter;
 	for (size_t i = 0; i < m.points.size(); ++i)
 		if (m.points[i].area > 0) worstInadmissible = std::max(worstInadmissible, inadmissibility(m.points[i].joint, is.modes[i], un[i], us[i]));
 }
@@ -406,7 +418,7 @@ bool EventPath::small()
 const Vector& EventPath::rate()
 {
 	chooseDirection(Phase::load);
-	return along.u;
+	return onLoad.u;
 }
 
 void EventPath::restore(const PathState& state)
@@ -421,9 +433,10 @@ void EventPath::restore(const PathState& state)
 	std::fill(excess.begin(), excess.end(), Stress {});
 	anchorStiffness.setZero();
 	unbalance.setZero();
-	r             = 0;
-	settling      = false;
-	pending.point = -1;
+	r        = 0;
+	settling = unbalanced = false;
+	onLoad.known = onRelease.known = false;
+	pending.point                  = -1;
 	reason.clear();
 	if (!asFactored) factorise();
 	measure();

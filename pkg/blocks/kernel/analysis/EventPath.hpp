@@ -17,8 +17,13 @@
 /// **Between events** everything is linear: K du = f with the tangent K of the present modes, f = loadGrowth - zonesDriven - ... for d lambda = 1, or
 /// f = sum A B^T e + q for dr = -1. A point that sticks or slides is symmetric or nearly so:
 ///   stick  A (kn n n^T + ks t t^T),     slide  A ke (c c^T - s (mu - psi) t c^T),  c = n - s psi t,
-/// so K = S + U D V^T with a symmetric S, whose factors follow every event by changes of rank one, and as many columns t in U, c in V as points
-/// slide with mu != psi. x = S^-1 f - S^-1 U D y with (1 + G D) y = V^T S^-1 f, G = V^T S^-1 U. G follows every event by S^-1 of the point's own n and t.
+/// so K = S + U D V^T with a symmetric S, whose factors follow every event by changes of rank one or two, and as many columns t in U, c in V as points
+/// slide with mu != psi. K^-1 f = S^-1 f - S^-1 U W V^T S^-1 f,  W = (1/D + G)^-1,  G = V^T S^-1 U. G and W follow every event by S^-1 B^T of its point.
+///
+/// The directions follow as well. With Z = K^-1 B^T and the change M of the point's springs, K' = K + B^T M B,
+///   K'^-1 f = K^-1 f - Z (1 + M B Z)^-1 M B K^-1 f,
+/// so an event costs one solution (two where something slides). Every `refreshAfter` events, and where little is left of a stiffness, directions are solved
+/// anew, and what rounding has left unbalanced is put right.
 ///
 /// **The next event** is the first along the direction over all points, ties by index; it may lie at once, so that the modes of points at a
 /// limit suit the direction (a sliding point whose slip would reverse sticks; one that sticks at its limit slides). If a point changes too often in
@@ -74,7 +79,8 @@ struct PathState {
 
 class EventPath {
 public:
-	static constexpr Real anchorShare = 1e-7;
+	static constexpr Real anchorShare  = 1e-7;
+	static constexpr int  refreshAfter = 32;
 
 	/// Errors: std::runtime_error where blocks can move without resistance, with their names.
 	EventPath(const LinearModel&, Release = Release::path, EventLimits = {});
@@ -88,14 +94,14 @@ public:
 
 	const PathPoint&              now() const { return here; }
 	const PathState&              state() const { return is; }
-	const PathEnergy&             energy() const { return sum; }
+	PathEnergy                    energy() const;
 	const std::vector<PathCrack>& cracks() const { return broken; }
 	const std::string&            ended() const { return reason; }
 
 	Real residual() const { return worstResidual; }         ///< largest unbalanced force by the largest force at a contact point, over all events
 	Real inadmissible() const { return worstInadmissible; } ///< see inadmissibility(), over all equilibrium points of the path
-	Real leastFriction() const { return lowestFriction; }   ///< the smallest increment of friction, by the work so far
-	Real leastExcess() const { return lowestExcess; }       ///< the smallest sum of excess of one breaking, by the work so far
+	Real leastFriction() const { return lowestFriction; }   ///< the smallest increment of friction, by the turnover of work so far
+	Real leastExcess() const { return lowestExcess; }       ///< the smallest sum of excess of one breaking, by the turnover of work so far
 	long steps() const { return stepCount; }                ///< straight pieces so far, events without a distance included
 	const std::vector<int>& looseBlocks() const { return loose; }
 	Real                    anchorForce() const { return largestAnchor; } ///< largest force of an anchor of loose blocks so far [N]
@@ -120,21 +126,30 @@ private:
 	/// A motion of everything, and what it does to the contact points.
 	struct Direction {
 		Vector            u;
-		Real              lambda = 0;
 		std::vector<Real> n, t;
+		bool              known = false;
 	};
 	enum class Phase { release, load };
-	using Two = Eigen::Matrix<Real, 2, 2>;
+	using Two     = Eigen::Matrix<Real, 2, 2>;
+	using Columns = Eigen::Matrix<Real, Eigen::Dynamic, 2>;
+	using Dense   = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
 	// ---- EventPathStiffness.cpp: the tangent K
 	void factorise();
-	void changeSprings(int i, const Two& delta);
-	void changeFriction(int i, const ModePoint& next);
+	void change(int i, const ModePoint& next, const Stress& jump);
+	void followDirections(int i, const Two& by, const Stress& jump);
+	void followFactors(const LinearPoint&, const Two& delta);
+	bool followFriction(const Two&);
+	bool dropFriction(int i);
+	bool addFriction(int i, const Two& own);
+	void invertFriction();
+	void solvePoint(const LinearPoint&);
 	bool anchor(const Vector& motion);
 	void collectFriction();
+	void withFriction(std::vector<Real>& x, const Columns&);
 	void solvePair(Vector& a, Vector& b);
 	void addTo(Vector& f, int i, Real byN, Real byT) const;
-	void spread(Direction&) const;
+	void spread(Direction&, Real lambda) const;
 
 	// ---- EventPath.cpp: the path
 	void   setUp();
@@ -142,9 +157,10 @@ private:
 	Vector loadForce() const;
 	Vector releaseForce() const;
 	Vector residualForce();
-	void   correct(const Vector& by);
+	void   refresh();
 	void   chooseDirection(Phase);
-	void   holdBack(Direction& release);
+	void   holdBack();
+	Real   jointEnergy() const;
 	bool   step(Phase, Real until);
 	bool   giveAway();
 	void   book(Real h, Real rBefore);
@@ -166,27 +182,32 @@ private:
 	std::vector<Stress> excess;    ///< e
 	std::vector<int>    giving;    ///< points that have an e
 	Vector              unbalance; ///< q
-	Real                r        = 0;
-	bool                settling = false;
-	Vector              zonesTimesU;
+	bool                unbalanced = false;
+	Real                r          = 0;
+	bool                settling   = false;
 	std::vector<int>    drivenPoints; ///< that feel the load factor directly
 	Real                forceScale = 0;
 
-	// ---- the direction
-	Direction         along;
-	Real              still = 0; ///< rates of opening and slip up to which there is no motion [m]
+	// ---- the direction: onLoad per load factor, onRelease per share given away; along is a sum of both
+	Direction         onLoad, onRelease;
+	Real              byLoad = 0, byRelease = 0;
+	std::vector<Real> alongN, alongT;
+	int               changes = 0; ///< since the directions were solved
+	Real              still   = 0; ///< rates of opening and slip up to which there is no motion [m]
 	std::vector<Held> held;
 	int               breaksNow = -1;                   ///< a held point that cannot be held
 	Held              pending { -1, PointEvent::none }; ///< a point that stands at its strength and breaks next
 
 	// ---- the tangent
-	std::unique_ptr<SparseFactor>                       factor;
-	Vector                                              diagonal; ///< of S at the start
-	Vector                                              anchorStiffness, anchorOrigin;
-	std::vector<int>                                    slides; ///< points in U and V
-	std::vector<Real>                                   frictionD;
-	Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> g;
-	std::vector<Real>                                   pair;
+	std::unique_ptr<SparseFactor> factor;
+	Vector                        diagonal; ///< of S at the start
+	Vector                        anchorStiffness, anchorOrigin;
+	std::vector<int>              slides; ///< points in U and V
+	std::vector<Real>             frictionD;
+	Dense                         g, w; ///< G and W
+	int                           sinceInverted = 0;
+	std::vector<Real>             pair, second, third;
+	Columns                       vY, uY; ///< V^T and U^T times S^-1 B^T of the point that changes
 
 	// ---- accounts
 	std::vector<int>       turns, turned;
@@ -196,11 +217,8 @@ private:
 	std::vector<int>       loose;
 	std::vector<PathCrack> broken;
 	Real                   worstResidual = 0, worstInadmissible = 0, lowestFriction = 0, lowestExcess = 0, largestAnchor = 0, excessAtStart = 0;
-	Real                   grown     = 0;
+	Real                   grown = 0, turnover = 0, jointsAtStart = 0;
 	long                   stepCount = 0, notedAt = 0;
 };
-
-/// The symmetric springs of a contact point in a mode, in the plane of opening and slip [Pa/m].
-Eigen::Matrix<Real, 2, 2> springsOf(const JointParams&, const ModePoint&);
 
 } // namespace blocks

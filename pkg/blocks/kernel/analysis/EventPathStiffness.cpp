@@ -53,18 +53,39 @@ namespace {
 		return -p.area * m.sign * slidingStiffness(p.joint, m) * (p.joint.tanPhiResidual - psiOf(p.joint, m));
 	}
 
-} // namespace
+	/// The symmetric springs of a contact point in a mode, in the plane of opening and slip [Pa/m].
+	Eigen::Matrix<Real, 2, 2> springsOf(const JointParams& p, const ModePoint& m)
+	{
+		Eigen::Matrix<Real, 2, 2> k = Eigen::Matrix<Real, 2, 2>::Zero();
+		if (m.mode == Mode::slide) {
+			const Vec2 c(1, -m.sign * psiOf(p, m));
+			k = slidingStiffness(p, m) * c * c.transpose();
+		} else if (m.mode != Mode::open)
+			k(0, 0) = p.kn, k(1, 1) = p.ks;
+		return k;
+	}
 
-Eigen::Matrix<Real, 2, 2> springsOf(const JointParams& p, const ModePoint& m)
-{
-	Eigen::Matrix<Real, 2, 2> k = Eigen::Matrix<Real, 2, 2>::Zero();
-	if (m.mode == Mode::slide) {
-		const Vec2 c(1, -m.sign * psiOf(p, m));
-		k = slidingStiffness(p, m) * c * c.transpose();
-	} else if (m.mode != Mode::open)
-		k(0, 0) = p.kn, k(1, 1) = p.ks;
-	return k;
-}
+	/// All springs: change of the stresses (sigma, tau) with opening and slip [Pa/m].
+	Eigen::Matrix<Real, 2, 2> tangentOf(const JointParams& p, const ModePoint& m)
+	{
+		const Stress              n = stressRate(p, m, 1, 0), t = stressRate(p, m, 0, 1);
+		Eigen::Matrix<Real, 2, 2> k;
+		k << n.sigma, t.sigma, n.tau, t.tau;
+		return k;
+	}
+
+	/// Opening and slip of a point by two motions side by side: a matrix of rows opening and slip.
+	Eigen::Matrix<Real, 2, 2> ofPoint(const LinearPoint& p, const std::vector<Real>& x)
+	{
+		Eigen::Matrix<Real, 2, 2> own;
+		own << times(p, p.n, &x[0], 2), times(p, p.n, &x[1], 2), times(p, p.t, &x[0], 2), times(p, p.t, &x[1], 2);
+		return own;
+	}
+
+	/// Whether a small matrix can be inverted without losing more than 5 of 16 digits.
+	bool wellConditioned(const Eigen::Matrix<Real, 2, 2>& a) { return std::abs(a.determinant()) > 1e-5 * a.squaredNorm(); }
+
+} // namespace
 
 void EventPath::addTo(Vector& f, int i, Real byN, Real byT) const
 {
@@ -73,13 +94,13 @@ void EventPath::addTo(Vector& f, int i, Real byN, Real byT) const
 		f[p.unknown[k]] += byN * p.n[k] + byT * p.t[k];
 }
 
-void EventPath::spread(Direction& d) const
+void EventPath::spread(Direction& d, Real lambda) const
 {
 	d.n.resize(m.points.size());
 	d.t.resize(m.points.size());
 	for (size_t i = 0; i < m.points.size(); ++i) {
 		const LinearPoint& p = m.points[i];
-		Real               n = p.nDriven * d.lambda, t = p.tDriven * d.lambda;
+		Real               n = p.nDriven * lambda, t = p.tDriven * lambda;
 		for (int k = 0; k < p.count; ++k) {
 			const Real x = d.u[p.unknown[k]];
 			n += p.n[k] * x;
@@ -142,42 +163,64 @@ void EventPath::collectFriction()
 			slides.push_back(i);
 			frictionD.push_back(frictionOf(m.points[i], is.modes[i]));
 		}
-	g.resize(slides.size(), slides.size());
+	const size_t s = slides.size();
+	g.resize(s, s);
 	std::vector<Real> x(2 * m.unknowns);
-	for (size_t j = 0; j < slides.size(); ++j) {
+	for (size_t j = 0; j < s; j += 2) { // two columns at a time
 		std::fill(x.begin(), x.end(), 0);
-		const LinearPoint& of = m.points[slides[j]];
-		for (int k = 0; k < of.count; ++k)
-			x[2 * of.unknown[k]] = of.t[k];
-		factor->solveTwo(x);
-		for (size_t i = 0; i < slides.size(); ++i) {
-			const LinearPoint& p = m.points[slides[i]];
-			const ModePoint&   q = is.modes[slides[i]];
-			g(i, j)              = times(p, p.n, x.data(), 2) - q.sign * psiOf(p.joint, q) * times(p, p.t, x.data(), 2);
+		const size_t two = std::min<size_t>(2, s - j);
+		for (size_t column = 0; column < two; ++column) {
+			const LinearPoint& of = m.points[slides[j + column]];
+			for (int k = 0; k < of.count; ++k)
+				x[2 * of.unknown[k] + column] = of.t[k];
 		}
+		factor->solveTwo(x);
+		for (size_t column = 0; column < two; ++column)
+			for (size_t i = 0; i < s; ++i) {
+				const LinearPoint& p = m.points[slides[i]];
+				const ModePoint&   q = is.modes[slides[i]];
+				g(i, j + column)     = times(p, p.n, &x[column], 2) - q.sign * psiOf(p.joint, q) * times(p, p.t, &x[column], 2);
+			}
 	}
+	invertFriction();
 }
 
-/// S += B^T delta B of point i, and G with it.
-void EventPath::changeSprings(int i, const Two& delta)
+/// W from G.
+void EventPath::invertFriction()
 {
-	constexpr Real singular = 1e-9; // of what is left of the stiffness where a spring goes
-	if (delta.isZero(0)) return;
-	const LinearPoint& p = m.points[i];
-	std::vector<Real>& z = pair;
-	Two                left;
-	auto               answer = [&] { // S^-1 of the point's own n and t, and what stays of it
-                z.assign(2 * m.unknowns, 0);
-                for (int k = 0; k < p.count; ++k)
-                        z[2 * p.unknown[k]] = p.n[k], z[2 * p.unknown[k] + 1] = p.t[k];
-                factor->solveTwo(z);
-                Two own;
-                own << times(p, p.n, &z[0], 2), times(p, p.n, &z[1], 2), times(p, p.t, &z[0], 2), times(p, p.t, &z[1], 2);
-                left = Two::Identity() + delta * own;
-	};
-	const bool goes = delta.trace() < 0;
-	if (goes || !slides.empty()) answer();
-	if (goes) {
+	sinceInverted = 0;
+	if (slides.empty()) return;
+	Dense h = g;
+	for (size_t j = 0; j < slides.size(); ++j)
+		h(j, j) += 1 / frictionD[j];
+	w = Eigen::PartialPivLU<Dense>(h).inverse();
+}
+
+/// pair = S^-1 B^T of a point, and what it does to the sliding ones.
+void EventPath::solvePoint(const LinearPoint& p)
+{
+	pair.assign(2 * m.unknowns, 0);
+	for (int k = 0; k < p.count; ++k)
+		pair[2 * p.unknown[k]] = p.n[k], pair[2 * p.unknown[k] + 1] = p.t[k];
+	factor->solveTwo(pair);
+}
+
+/// A point goes into its next mode and loses `jump` of its stress: factors, W and directions follow.
+void EventPath::change(int i, const ModePoint& next, const Stress& jump)
+{
+	constexpr Real     singular = 1e-9; // of what is left of the stiffness where a spring goes
+	const LinearPoint& p        = m.points[i];
+	const ModePoint    now      = is.modes[i];
+	const Two  delta = p.area * (springsOf(p.joint, next) - springsOf(p.joint, now)), by = p.area * (tangentOf(p.joint, next) - tangentOf(p.joint, now));
+	const bool loses = jump.sigma != 0 || jump.tau != 0;
+	if (by.isZero(0) && !loses) {
+		is.modes[i] = next;
+		return;
+	}
+	++changes;
+	solvePoint(p);
+	Two own = ofPoint(p, pair), left = Two::Identity() + delta * own;
+	if (delta.trace() < 0) {
 		const Real half = left.trace() / 2, det = left.determinant(), root = std::sqrt(std::max(Real(0), half * half - det)), least = half - root;
 		if (!(least > singular)) {
 			Vec2 v(left(0, 1), least - left(0, 0)); // left v = least v
@@ -186,73 +229,162 @@ void EventPath::changeSprings(int i, const Two& delta)
 			// delta own f = -f for f = v: the motion is S^-1 B^T f
 			Vector motion(m.unknowns);
 			for (int k = 0; k < m.unknowns; ++k)
-				motion[k] = v[0] * z[2 * k] + v[1] * z[2 * k + 1];
-			if (anchor(motion)) answer();
-		}
-	}
-	if (!slides.empty()) {
-		const int                              s = int(slides.size());
-		Eigen::Matrix<Real, Eigen::Dynamic, 2> vz(s, 2), uz(s, 2);
-		for (int j = 0; j < s; ++j) {
-			const LinearPoint& q    = m.points[slides[j]];
-			const ModePoint&   mode = is.modes[slides[j]];
-			for (int k : { 0, 1 }) {
-				uz(j, k) = times(q, q.t, &z[k], 2);
-				vz(j, k) = times(q, q.n, &z[k], 2) - mode.sign * psiOf(q.joint, mode) * uz(j, k);
+				motion[k] = v[0] * pair[2 * k] + v[1] * pair[2 * k + 1];
+			if (anchor(motion)) {
+				solvePoint(p);
+				own  = ofPoint(p, pair);
+				left = Two::Identity() + delta * own;
 			}
 		}
-		g -= vz * (left.inverse() * delta) * uz.transpose();
 	}
-	// a symmetric 2x2 as two changes of rank one, what comes before what goes
+	const int s = int(slides.size());
+	vY.resize(s, 2), uY.resize(s, 2);
+	for (int j = 0; j < s; ++j) {
+		const LinearPoint& q    = m.points[slides[j]];
+		const ModePoint&   mode = is.modes[slides[j]];
+		for (int k : { 0, 1 }) {
+			uY(j, k) = times(q, q.t, &pair[k], 2);
+			vY(j, k) = times(q, q.n, &pair[k], 2) - mode.sign * psiOf(q.joint, mode) * uY(j, k);
+		}
+	}
+	followDirections(i, by, { p.area * jump.sigma, p.area * jump.tau });
+
+	const Two after = left.inverse(); // S'^-1 B^T = S^-1 B^T after
+	bool      exact = followFriction(after * delta);
+	vY = (vY * after).eval(), uY = (uY * after).eval(), own = (own * after).eval();
+	followFactors(p, delta);
+	exact       = dropFriction(i) && exact;
+	is.modes[i] = next;
+	exact       = addFriction(i, own) && exact;
+	if (!slides.empty() && (!exact || ++sinceInverted > refreshAfter)) invertFriction();
+}
+
+/// The directions of the next mode, where they are known; `jump` is a force [N].
+void EventPath::followDirections(int i, const Two& by, const Stress& jump)
+{
+	const LinearPoint& p     = m.points[i];
+	const bool         loses = jump.sigma != 0 || jump.tau != 0;
+	if (!onLoad.known && !onRelease.known) return;
+	second = pair; // K^-1 B^T
+	withFriction(second, vY);
+	const Two left = Two::Identity() + by * ofPoint(p, second);
+	if (!wellConditioned(left)) {
+		onLoad.known = onRelease.known = false;
+		return;
+	}
+	const Two after  = left.inverse();
+	auto      follow = [&](Direction& d, Real lambda, const Vec2& more) {
+                const Vec2 f = after * (more - by * Vec2(d.n[i], d.t[i]));
+                for (int k = 0; k < m.unknowns; ++k)
+                        d.u[k] += second[2 * k] * f[0] + second[2 * k + 1] * f[1];
+                spread(d, lambda);
+	};
+	if (onLoad.known) follow(onLoad, 1, Vec2::Zero());
+	if (onRelease.known && (r > 0 || loses)) follow(onRelease, 0, Vec2(jump.sigma, jump.tau));
+}
+
+/// x -= S^-1 U W t.
+void EventPath::withFriction(std::vector<Real>& x, const Columns& t)
+{
+	const int s = int(slides.size());
+	if (s == 0) return;
+	const Columns y = w * t;
+	third.assign(2 * m.unknowns, 0);
+	for (int j = 0; j < s; ++j) {
+		const LinearPoint& q = m.points[slides[j]];
+		for (int k = 0; k < q.count; ++k)
+			third[2 * q.unknown[k]] += q.t[k] * y(j, 0), third[2 * q.unknown[k] + 1] += q.t[k] * y(j, 1);
+	}
+	factor->solveTwo(third);
+	for (size_t k = 0; k < x.size(); ++k)
+		x[k] -= third[k];
+}
+
+/// G and W where S^-1 loses S^-1 B^T c B S^-1. False if W is not exact enough.
+bool EventPath::followFriction(const Two& c)
+{
+	if (slides.empty()) return true;
+	g.noalias() -= (vY * c) * uY.transpose();
+	const Columns                                wv   = w * vY;
+	const Eigen::Matrix<Real, 2, Eigen::Dynamic> uw   = uY.transpose() * w;
+	const Two                                    core = Two::Identity() - c * (uY.transpose() * wv);
+	if (!wellConditioned(core)) return false;
+	w.noalias() += (wv * (core.inverse() * c)) * uw;
+	return true;
+}
+
+/// S += B^T delta B, a symmetric 2x2, what comes before what goes.
+void EventPath::followFactors(const LinearPoint& p, const Two& delta)
+{
+	if (delta.isZero(0)) return;
 	if (delta(0, 1) == 0) {
+		if (delta(0, 0) * delta(1, 1) > 0) {
+			factor->add(delta(0, 0), entriesOf(p, 1, 0), delta(1, 1), entriesOf(p, 0, 1));
+			return;
+		}
 		for (bool up : { true, false }) {
 			if ((delta(0, 0) > 0) == up) factor->add(delta(0, 0), entriesOf(p, 1, 0));
 			if ((delta(1, 1) > 0) == up) factor->add(delta(1, 1), entriesOf(p, 0, 1));
 		}
-	} else {
-		const Real half = delta.trace() / 2, off = delta(0, 1), diff = (delta(0, 0) - delta(1, 1)) / 2, root = std::hypot(diff, off);
-		for (Real value : { half + root, half - root }) {
-			Vec2 v(off, value - delta(0, 0));
-			v.normalize();
-			factor->add(value, entriesOf(p, v[0], v[1]));
-		}
+		return;
+	}
+	const Real half = delta.trace() / 2, off = delta(0, 1), diff = (delta(0, 0) - delta(1, 1)) / 2, root = std::hypot(diff, off);
+	for (Real value : { half + root, half - root }) {
+		Vec2 v(off, value - delta(0, 0));
+		v.normalize();
+		factor->add(value, entriesOf(p, v[0], v[1]));
 	}
 }
 
-/// Takes a point out of U and V, or puts it in; its springs are changed already.
-void EventPath::changeFriction(int i, const ModePoint& next)
+/// Takes a point out of U and V, if it is there. False if W is not exact enough.
+bool EventPath::dropFriction(int i)
 {
 	const auto known = std::find(slides.begin(), slides.end(), i);
-	if (known != slides.end()) {
-		const int at = int(known - slides.begin()), last = int(slides.size()) - 1; // the last takes its place
-		g.row(at).swap(g.row(last));
-		g.col(at).swap(g.col(last));
-		std::swap(slides[at], slides[last]);
-		std::swap(frictionD[at], frictionD[last]);
-		slides.pop_back();
-		frictionD.pop_back();
-		g.conservativeResize(last, last);
+	if (known == slides.end()) return true;
+	const int at = int(known - slides.begin()), last = int(slides.size()) - 1; // the last takes its place
+	for (Dense* of : { &g, &w }) {
+		of->row(at).swap(of->row(last));
+		of->col(at).swap(of->col(last));
 	}
-	const LinearPoint& p = m.points[i];
-	const Real         d = next.mode == Mode::slide ? frictionOf(p, next) : 0;
-	if (d == 0) return;
-	const int          s   = int(slides.size());
-	const Real         psi = next.sign * psiOf(p.joint, next);
-	std::vector<Real>& z   = pair;
-	z.assign(2 * m.unknowns, 0);
-	for (int k = 0; k < p.count; ++k)
-		z[2 * p.unknown[k]] = p.t[k], z[2 * p.unknown[k] + 1] = p.n[k] - psi * p.t[k];
-	factor->solveTwo(z);
+	for (Columns* of : { &vY, &uY })
+		of->row(at).swap(of->row(last)), of->conservativeResize(last, 2);
+	std::swap(slides[at], slides[last]);
+	std::swap(frictionD[at], frictionD[last]);
+	const Real corner = w(last, last), d = frictionD.back();
+	slides.pop_back();
+	frictionD.pop_back();
+	w.topLeftCorner(last, last) -= (w.col(last).head(last) / corner * w.row(last).head(last)).eval();
+	g.conservativeResize(last, last);
+	w.conservativeResize(last, last);
+	return std::abs(corner) > 1e-5 * std::abs(d);
+}
+
+/// Puts a point into U and V if it slides now; `own` is B S^-1 B^T. False if W is not exact enough.
+bool EventPath::addFriction(int i, const Two& own)
+{
+	const LinearPoint& p    = m.points[i];
+	const ModePoint&   mode = is.modes[i];
+	const Real         d    = mode.mode == Mode::slide ? frictionOf(p, mode) : 0;
+	if (d == 0) return true;
+	const int    s      = int(slides.size());
+	const Real   psi    = mode.sign * psiOf(p.joint, mode);
+	const Vector column = vY.col(1), row = uY.col(0) - psi * uY.col(1);
+	const Real   corner = own(0, 1) - psi * own(1, 1);
 	g.conservativeResize(s + 1, s + 1);
-	for (int j = 0; j < s; ++j) {
-		const LinearPoint& q    = m.points[slides[j]];
-		const ModePoint&   mode = is.modes[slides[j]];
-		g(s, j)                 = times(q, q.t, &z[1], 2);
-		g(j, s)                 = times(q, q.n, &z[0], 2) - mode.sign * psiOf(q.joint, mode) * times(q, q.t, &z[0], 2);
-	}
-	g(s, s) = times(p, p.n, &z[0], 2) - psi * times(p, p.t, &z[0], 2);
+	g.col(s).head(s) = column;
+	g.row(s).head(s) = row.transpose();
+	g(s, s)          = corner;
 	slides.push_back(i);
 	frictionD.push_back(d);
+
+	const Vector wc = w.topLeftCorner(s, s) * column, rw = w.topLeftCorner(s, s).transpose() * row;
+	const Real   left = 1 / d + corner - row.dot(wc);
+	w.conservativeResize(s + 1, s + 1);
+	w.topLeftCorner(s, s) += wc * rw.transpose() / left;
+	w.col(s).head(s) = -wc / left;
+	w.row(s).head(s) = -rw.transpose() / left;
+	w(s, s)          = 1 / left;
+	return std::abs(left) > 1e-5 * std::abs(1 / d);
 }
 
 /// Soft springs on the blocks of a motion that nothing resists. False if they have them already.
@@ -270,46 +402,32 @@ bool EventPath::anchor(const Vector& motion)
 				factor->add(anchorStiffness[i], { { i, 1 } });
 			}
 	}
-	if (any) collectFriction();
+	if (any) {
+		collectFriction();
+		onLoad.known = onRelease.known = false;
+	}
 	return any;
 }
 
 /// a = K^-1 a and b = K^-1 b.
 void EventPath::solvePair(Vector& a, Vector& b)
 {
-	std::vector<Real>& x    = pair;
-	auto               fill = [&](const Vector& p, const Vector& q) {
-                x.resize(2 * m.unknowns);
-                for (int i = 0; i < m.unknowns; ++i)
-                        x[2 * i] = p[i], x[2 * i + 1] = q[i];
-                factor->solveTwo(x);
-	};
-	fill(a, b);
+	std::vector<Real>& x = pair;
+	x.resize(2 * m.unknowns);
 	for (int i = 0; i < m.unknowns; ++i)
-		a[i] = x[2 * i], b[i] = x[2 * i + 1];
+		x[2 * i] = a[i], x[2 * i + 1] = b[i];
+	factor->solveTwo(x);
 	const int s = int(slides.size());
-	if (s == 0) return;
-
-	Eigen::Matrix<Real, Eigen::Dynamic, 2> t(s, 2);
+	Columns   t(s, 2);
 	for (int j = 0; j < s; ++j) {
 		const LinearPoint& q    = m.points[slides[j]];
 		const ModePoint&   mode = is.modes[slides[j]];
 		for (int k : { 0, 1 })
 			t(j, k) = times(q, q.n, &x[k], 2) - mode.sign * psiOf(q.joint, mode) * times(q, q.t, &x[k], 2);
 	}
-	Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> small = g;
-	for (int j = 0; j < s; ++j)
-		small.col(j) *= frictionD[j];
-	small.diagonal().array() += 1;
-	t         = Eigen::PartialPivLU<Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>>(small).solve(t).eval();
-	Vector fa = Vector::Zero(m.unknowns), fb = fa;
-	for (int j = 0; j < s; ++j) {
-		addTo(fa, slides[j], 0, frictionD[j] * t(j, 0));
-		addTo(fb, slides[j], 0, frictionD[j] * t(j, 1));
-	}
-	fill(fa, fb);
+	withFriction(x, t);
 	for (int i = 0; i < m.unknowns; ++i)
-		a[i] -= x[2 * i], b[i] -= x[2 * i + 1];
+		a[i] = x[2 * i], b[i] = x[2 * i + 1];
 }
 
 Vector EventPath::solve(const Vector& f)

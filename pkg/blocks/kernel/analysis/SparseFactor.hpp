@@ -27,7 +27,9 @@ public:
 	int rowOfLeastPivot() const { return leastRow; }
 
 	/// matrix += scale v v^T.
-	void add(Real scale, const Entries& v);
+	void add(Real scale, const Entries& v) { add(scale, v, 0, {}); }
+	/// matrix += scale1 v1 v1^T + scale2 v2 v2^T, both scales of one sign, in one pass.
+	void add(Real scale1, const Entries& v1, Real scale2, const Entries& v2);
 
 	/// x = matrix^-1 b for two right-hand sides side by side: b[2 i + k], in place. Twice the work costs little more time: L passes the memory once.
 	void solveTwo(std::vector<Real>& b) const;
@@ -36,13 +38,17 @@ public:
 	long entries() const;
 
 private:
+	void findRuns();
+
 	struct Cholmod;
-	std::unique_ptr<Cholmod>  c;
-	int                       count    = 0;
-	Real                      least    = 1;
-	int                       leastRow = -1;
-	std::vector<int>          place; ///< row of the matrix -> row of L
-	mutable std::vector<Real> work;
+	std::unique_ptr<Cholmod> c;
+	int                      count    = 0;
+	Real                     least    = 1;
+	int                      leastRow = -1;
+	std::vector<int>         place;    ///< row of the matrix -> row of L
+	std::vector<int>         runs;     ///< first columns of runs of columns with the same rows, and the end
+	long                     used = 0; ///< entries of L that are in use
+	mutable std::vector<Eigen::Array<Real, 2, 1>, Eigen::aligned_allocator<Eigen::Array<Real, 2, 1>>> work;
 };
 
 } // namespace blocks
