@@ -12,6 +12,7 @@ Size means the mean edge length, as in UDEC, unless sizeMeaning=sqrtArea. Tables
 friction: residualFriction=zero takes that literally, kept leaves the friction angle as it is. units=plain makes each brick one block
 that cannot crack.
 halfRate=true repeats every run at half the loading rate and reports the change of the strength.
+solver=events goes from failure to failure (BlockModel.follow) as long as displacements are small, and in time steps from there on. It says where that was.
 """
 from math import radians
 
@@ -41,14 +42,15 @@ velocity = 0.01e-3 # [m/s]
 common = scenario.commonParameters(sizeMeaning='edge', lloyd=3, steps=30000, alpha=0.2)
 del common['size']
 p = scenario.parameters({
-	**common, 'unitSize': 0.01, 'mortarSize': 0.003, 'residualFriction': 'zero', 'units': 'voronoi', 'width': 0.285, 'stroke': 3.6e-3, 'jump': True,
-	'servo': False, 'merge': 0.1, 'halfRate': False, 'vtk': True
+	**common, 'unitSize': 0.01, 'mortarSize': 0.003, 'residualFriction': 'zero', 'units': 'voronoi', 'width': 0.285, 'stroke': 3.6e-3, 'solver': 'steps',
+	'jump': True, 'servo': False, 'merge': 0.1, 'halfRate': False, 'vtk': True
 }, {
-	'unitSize': scenario.Rule(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick'),
+	'solver': ('steps', 'events'), 'unitSize': scenario.Rule(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick'),
 	'mortarSize': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than a mortar joint'), 'residualFriction': ('zero', 'kept'),
 	'units': ('voronoi', 'plain'), 'width': scenario.positive, 'stroke': scenario.positive,
 	'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')
 })
+scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'compression: solver=events has no rate: servo and halfRate must be false')
 if p.residualFriction == 'zero':
 	mortarJoint['frictionAngleResidual'] = brickJoint['frictionAngleResidual'] = 0
 area = p.width * thickness
@@ -98,21 +100,31 @@ def crush(stage, seed, steps):
 		record.after(lambda row: progress(int(-steps * model.groupTravelled('platen') / p.stroke)))
 		record.after(lambda row: stop(-model.groupTravelled('platen'), row.stress, row.broken))
 		stage.keep(record=record, cracks=cracks, stop=stop)
-		if not stage.model: begin(model, steps, floor, record)
+		if not stage.model: begin(model, steps, floor, record, wider, cracks, stage.label)
 		stage.run()
 	return model, record, cracks
 
 
-def begin(model, steps, floor, record):
+def begin(model, steps, floor, record, wider, cracks, label):
 	"""The engines, and the way to the first crack."""
 	servo = dict(groups=['platen'], floor=floor) if p.servo else None
 	O.dt = p.stroke / velocity / steps
 	O.engines = loopList(contact=True, servo=servo, damping=p.damping, alpha=p.alpha, safety=p.safety) # broken joints may slide on, part and meet again
-	O.run(1, True)
-	record()
-	if p.jump:
-		model.elasticJump()
+	if p.solver == 'events':
+		path = loading.follow(model, 'platen', label, gauges=[wider], release='cascade', displacement=p.stroke)
+		record.take(
+			strain=path['displacement'] / height, stress=path['force'] / area, lateral=path['gauges'][0] / p.width, broken=path['cracked'],
+			unbalanced=path['residual']
+		)
+		cracks.began(path['crackPoint'])
+		print('from event to event up to %.3g N/mm2, then in time steps: %s' % (path['reached'][1] / area / 1e6, path['ended']))
 		record()
+	else:
+		O.run(1, True)
+		record()
+		if p.jump:
+			model.elasticJump()
+			record()
 	O.engines += [record.engine(max(1, min(50, steps // 400)))]
 
 

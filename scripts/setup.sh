@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 packages="yade libyade python3-yade libeigen3-dev libcgal-dev libboost-dev libboost-python-dev libboost-numpy-dev libboost-serialization-dev
-	libgmp-dev libmpfr-dev python3-dev python3-numpy python3-pandas python3-matplotlib python3-meshio cmake g++ ninja-build binutils"
+	libgmp-dev libmpfr-dev libsuitesparse-dev python3-dev python3-numpy python3-pandas python3-matplotlib python3-meshio cmake g++ ninja-build binutils"
 tests=OFF
 if [ "${1:-}" = --tests ]; then
 	tests=ON

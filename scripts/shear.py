@@ -12,6 +12,8 @@ Size means sqrt(mean area) unless sizeMeaning=edge. Loading starts at the first 
 servo=true lets the unbalanced force set the speed instead. kn, ks, cohesion, tension, friction and residualFriction (Table 5) show what governs the result.
 units=voronoi makes bricks of blocks, with edges of brickZone, that could crack; plain ones are one elastic block with zones of that size.
 halfRate=true repeats every run at half the loading rate and reports the change of the peak.
+solver=events goes from failure to failure up to the peak (BlockModel.follow) and in time steps from there on; afterPeak=false ends at the peak,
+without a residual.
 """
 from math import radians
 
@@ -44,15 +46,17 @@ pressSteps = 2000
 
 p = scenario.parameters({
 	**scenario.commonParameters(size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2), 'sigma': 0.5e6, 'stroke': 1e-3, 'approach': 0.2,
-	'jump': True, 'servo': False, 'units': 'plain', 'brickZone': 8e-3, 'merge': 0.1, **jointDefaults, 'halfRate': False, 'vtk': True
+	'solver': 'steps', 'afterPeak': True, 'jump': True, 'servo': False, 'units': 'plain', 'brickZone': 8e-3, 'merge': 0.1, **jointDefaults, 'halfRate': False, 'vtk': True
 }, {
-	'sigma': scenario.notNegative, 'stroke': scenario.positive, 'approach': scenario.Rule(lambda f: 0 < f <= 1,
+	'solver': ('steps', 'events'), 'sigma': scenario.notNegative, 'stroke': scenario.positive, 'approach': scenario.Rule(lambda f: 0 < f <= 1,
 												'must lie in (0, 1]'), 'units': ('plain', 'voronoi'),
 	'brickZone': scenario.positive, 'size': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer'),
 	'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)'), 'kn': scenario.positive, 'ks': scenario.positive, 'cohesion': scenario.notNegative,
 	'tension': scenario.notNegative, **dict.fromkeys(('friction', 'residualFriction'),
 								scenario.Rule(lambda angle: 0 <= angle < 90, 'must lie in [0, 90) degrees'))
 })
+scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'shear: solver=events has no rate: servo and halfRate must be false')
+scenario.require(p.afterPeak or p.solver == 'events', 'shear: afterPeak=false needs solver=events, got solver=steps')
 joint = dict(kn=p.kn, ks=p.ks, frictionAngle=radians(p.friction), frictionAngleResidual=radians(p.residualFriction), cohesion=p.cohesion, tension=p.tension)
 area, low, high = length * thickness, brickHeight, brickHeight + mortarHeight
 peakExpected, residualExpected = experiments.peakShearStress(p.sigma), experiments.residualShearStress(p.sigma)
@@ -86,8 +90,9 @@ def shear(stage, seed, steps):
 	model = stage.model or build(seed, dt)
 	below, above = nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit')
 	floor, cracks = 1e-3 * max(p.sigma, joint['tension']) * area, Cracks(model)
+	slip, uplift = Gauge(model, below, above, 'x'), Gauge(model, below, above, 'y')
 	record = Recorder(
-		displacement=Gauge(model, below, above, 'x'), stress=lambda: model.groupForce('shear') / area, uplift=Gauge(model, below, above, 'y'),
+		displacement=slip, stress=lambda: model.groupForce('shear') / area, uplift=uplift,
 		broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=floor)
 	)
 	if not stage.model: press(model, dt, floor)
@@ -99,8 +104,17 @@ def shear(stage, seed, steps):
 		record.after(lambda row: progress(int(steps * model.groupTravelled('shear') / p.stroke)))
 		stage.keep(record=record, cracks=cracks, approach=approach, stop=stop)
 		if not stage.model:
+			if p.solver == 'events':
+				path = loading.follow(model, 'shear', stage.label, gauges=[slip, uplift], peak=True, drop=0.5, displacement=p.stroke)
+				up = slice(path['force'].argmax() + 1)
+				record.take(
+					displacement=path['gauges'][0][up], stress=path['force'][up] / area, uplift=path['gauges'][1][up], broken=path['cracked'][up],
+					unbalanced=path['residual']
+				)
+				cracks.began(path['crackPoint'])
+				if not p.afterPeak: return model, record, cracks
 			record()
-			if p.jump:
+			if p.solver == 'steps' and p.jump:
 				model.elasticJump()
 				record()
 			O.engines += [record.engine(max(1, min(50, steps // 400)))]
@@ -113,8 +127,9 @@ def press(model, dt, floor):
 	servo = dict(groups=['shear'], floor=floor) if p.servo else None
 	O.dt = dt
 	O.engines = loopList(contact=True, servo=servo, damping=p.damping, alpha=p.alpha, safety=p.safety) # broken joints may slide on, part and meet again
-	O.run(1, True)
-	if not p.jump: loading.settle(model, floor=floor)
+	if p.solver == 'steps':
+		O.run(1, True)
+		if not p.jump: loading.settle(model, floor=floor)
 	model.setTarget('shear', velocity, rampTime=0 if p.jump else pressSteps * dt)
 
 
@@ -131,7 +146,7 @@ with Session(p) as session:
 				displacement, stress, uplift, broken = (record[name] for name in ('displacement', 'stress', 'uplift', 'broken'))
 				strength, peak = curves.peak(displacement, stress)
 				run.add('peak_shear_stress', 'MPa', strength / 1e6, *peakExpected)
-				run.add('residual_shear_stress', 'MPa', curves.residual(displacement, stress) / 1e6, *residualExpected)
+				if p.afterPeak: run.add('residual_shear_stress', 'MPa', curves.residual(displacement, stress) / 1e6, *residualExpected)
 				run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
 				run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
 				run.add('first_crack_place', 'mm', cracks.first[0][0] * 1e3) # from the left end

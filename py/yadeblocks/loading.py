@@ -5,8 +5,15 @@
 	loading.settle(model)                                    # dead loads and pushed platens, to equilibrium
 	stop = loading.Stop(drop=0.5, displacement=3e-3)
 	O.engines += [PyRunner(command="stop(model.groupTravelled('top'), stress(), broken())", iterPeriod=100)]
+
+From event to event, the exact answer of the brittle model, instead of in time steps:
+
+	path = loading.follow(model, 'top', 'seed 1', gauges=[gauge], displacement=1e-3)
 """
+import math
+
 from .curves import Peak
+from .progress import Progress
 
 
 def settle(model, ratio=1e-4, floor=0.0, period=100, maxSteps=1000000):
@@ -24,6 +31,22 @@ def settle(model, ratio=1e-4, floor=0.0, period=100, maxSteps=1000000):
 		reached = model.unbalancedRatio(floor=floor)
 		if reached < ratio: return O.iter - start
 	raise RuntimeError('settle: the unbalanced force ratio is %.3g after %d steps, not below %g' % (reached, maxSteps, ratio))
+
+
+def follow(model, group, label='', displacement=math.inf, **options):
+	"""`BlockModel.follow` with a progress line; options go to it. `displacement` is where it ends at the latest [m].
+
+	A further column of the path, `cracked`, is the number of broken contact points with the one that stands at its strength and breaks next."""
+	seen = [0., 0., 0]
+
+	def look(*now):
+		seen[:] = now
+		line(int(1000 * now[0] / displacement))
+
+	with Progress(1000, lambda: 'u %.4f mm  force %.4g N  broken %d' % (1e3 * seen[0], seen[1], seen[2]), label=label) as line:
+		path = model.follow(group, displacement=displacement, progress=look, **options)
+	path['cracked'] = path['broken'] + (path['point'] >= 0)
+	return path
 
 
 class Approach:

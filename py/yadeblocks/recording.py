@@ -32,6 +32,11 @@ class Recorder:
 			follower(row)
 		return row
 
+	def take(self, **columns):
+		"""Rows that were computed elsewhere: an array for each column, or a number for all rows. They are not handed on."""
+		self.rows += [self.Row(*row) for row in zip(*np.broadcast_arrays(*(columns.pop(name) for name in self.columns)))]
+		if columns: raise TypeError(f"Recorder: there is no column {', '.join(columns)}")
+
 	def after(self, follower):
 		"""Calls follower(row) after each reading; several are called in this order. Returns the recorder."""
 		self.followers.append(follower)

@@ -80,6 +80,10 @@ class Cracks:
 			self.first = tuple(np.asarray(self.model.contactPositions())[point]), self.pairs[point]
 		return count
 
+	def began(self, points):
+		"""Takes the contact points in the order of breaking from who knows it (`crackPoint` of `BlockModel.follow`)."""
+		if len(points): self.first = tuple(np.asarray(self.model.contactPositions())[points[0]]), self.pairs[points[0]]
+
 	def counts(self):
 		"""Broken contact points by joint type and mode: {"unit-mortar": {"tension": 12, "shear": 3}, ...}, in alphabetical order.
 		Every joint type that was bonded is there, also with zeros."""

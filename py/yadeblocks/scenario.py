@@ -142,6 +142,13 @@ def parameters(defaults, allowed=None, scenario=None):
 		sys.exit(2)
 
 
+def require(fulfilled, text):
+	"""Ends the program with this line and code 2 unless the values go together, which rules of single values cannot say."""
+	if not fulfilled:
+		print(text, file=sys.stderr)
+		sys.exit(2)
+
+
 def describe(defaults, allowed=None, scenario="scenario"):
 	"""One line for every key: its default, its meaning if it is a common one, its rule."""
 	rules = _rules(defaults, allowed)

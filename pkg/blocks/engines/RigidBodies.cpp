@@ -99,6 +99,17 @@ void noteFreedom(const Scene* scene, BlockModel& model)
 	}
 }
 
+void readRigidMotion(const Scene* scene, BlockModel& model)
+{
+	noteFreedom(scene, model);
+	for (auto& r : model.assembly.state.rigid) {
+		const State&       state    = stateOf(scene, model, r);
+		const blocks::Vec3 velocity = inPlane(state.vel, state.angVel);
+		for (int i = 0; i < 3; ++i)
+			if (!r.free[i]) r.velocity[i] = velocity[i];
+	}
+}
+
 void writeMasses(const Scene* scene, BlockModel& model)
 {
 	for (auto& r : model.assembly.state.rigid) {

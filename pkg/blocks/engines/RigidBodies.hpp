@@ -17,6 +17,9 @@ Real newtonDamping(const Engine& newton);
 /// blockedDOFs -> which motions are free; a change is a change of the stable step.
 void noteFreedom(const Scene*, BlockModel&);
 
+/// Prescribed velocities of bodies -> the model's rigid blocks, and which motions are free.
+void readRigidMotion(const Scene*, BlockModel&);
+
 /// Masses of the model -> state.mass and state.inertia, with what follows for the velocity.
 void writeMasses(const Scene*, BlockModel&);
 

@@ -1,6 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
-#include <blocks/kernel/analysis/ElasticJump.hpp>
 #include <blocks/kernel/step/Loads.hpp>
+#include <blocks/python/Follow.hpp>
 #include <blocks/python/ModelPython.hpp>
 #include <core/Omega.hpp>
 
@@ -93,15 +93,6 @@ namespace {
 		return names;
 	}
 
-	py::dict elasticJump(BlockModel& model, Real fraction)
-	{
-		const blocks::ElasticJump jump = blocks::elasticJump(model.assembly, fraction, Omega::instance().getScene()->time);
-		py::dict                  out;
-		out["time"]  = jump.time;
-		out["point"] = jump.point;
-		return out;
-	}
-
 	void gravity(BlockModel& model, const Vector2r& g) { blocks::addGravity(model.assembly, g); }
 
 	void traction(BlockModel& model, const py::object& edges, const Vector2r& stress)
@@ -150,8 +141,20 @@ void defineSupports(PythonModel& c)
 	             "to this fraction of the first failure, and goes on from there at full speed; no ramps, no settling. "
 	             "Joints must have their properties (Mohr-Coulomb), from bond() or from a first step. Returns {'time': of loading at full speed that "
 	             "was leapt over [s], 'point': the contact point that will fail first}. "
+	             "Rigid blocks move along, those with a prescribed velocity as driven ones. "
 	             "Errors: RuntimeError where joints are broken or never were bonded, blocks are not held, nothing is driven, or the loads alone break a "
 	             "joint; nothing is changed then.")
+		.def("follow",
+	             &follow,
+	             (arg("group"),
+	              arg("peak")         = false,
+	              arg("drop")         = 0.5,
+	              arg("displacement") = std::numeric_limits<Real>::infinity(),
+	              arg("cracks")       = std::numeric_limits<int>::max(),
+	              arg("release")      = "path",
+	              arg("gauges")       = py::list(),
+	              arg("progress")     = py::object()),
+	             followDoc)
 		.add_property("groups", &groupNames, "Names of the motion groups.");
 }
 

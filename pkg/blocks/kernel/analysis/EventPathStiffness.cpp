@@ -1,0 +1,440 @@
+// yade-blocks, GPL-2.0-or-later
+#include <Eigen/LU>
+#include <algorithm>
+#include <blocks/kernel/analysis/EventPath.hpp>
+
+/// The tangent stiffness of the present modes: factors of its symmetric part, and friction as a low-rank addition.
+namespace blocks {
+namespace {
+
+	std::string blockNames(const std::vector<int>& blocks)
+	{
+		std::string text;
+		for (size_t i = 0; i < blocks.size() && i < 8; ++i)
+			text += (i ? ", " : "") + std::to_string(blocks[i]);
+		return text + (blocks.size() > 8 ? " and " + std::to_string(blocks.size() - 8) + " more" : "");
+	}
+
+	/// The blocks that a motion moves, in order.
+	std::vector<int> blocksThatMove(const LinearModel& m, const Vector& motion)
+	{
+		constexpr Real   noticeable = 1e-3;
+		const Real       largest    = motion.cwiseAbs().maxCoeff();
+		std::vector<int> blocks;
+		for (int i = 0; i < m.unknowns; ++i)
+			if (std::abs(motion[i]) > noticeable * largest) blocks.push_back(m.blockOfUnknown[i]);
+		std::sort(blocks.begin(), blocks.end());
+		blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+		return blocks;
+	}
+
+	SparseFactor::Entries entriesOf(const LinearPoint& p, Real byN, Real byT)
+	{
+		SparseFactor::Entries v;
+		for (int k = 0; k < p.count; ++k)
+			v.emplace_back(p.unknown[k], byN * p.n[k] + byT * p.t[k]);
+		return v;
+	}
+
+	Real times(const LinearPoint& p, const std::array<Real, 8>& b, const Real* x, int stride)
+	{
+		Real sum = 0;
+		for (int k = 0; k < p.count; ++k)
+			sum += b[k] * x[stride * p.unknown[k]];
+		return sum;
+	}
+
+	/// psi of a sliding point: zero unless it dilates.
+	Real psiOf(const JointParams& p, const ModePoint& m) { return m.dilating ? p.tanDilation : 0; }
+
+	/// The factor of t c^T, the unsymmetric part of a sliding point [N/m].
+	Real frictionOf(const LinearPoint& p, const ModePoint& m)
+	{
+		return -p.area * m.sign * slidingStiffness(p.joint, m) * (p.joint.tanPhiResidual - psiOf(p.joint, m));
+	}
+
+	/// The symmetric springs of a contact point in a mode, in the plane of opening and slip [Pa/m].
+	Eigen::Matrix<Real, 2, 2> springsOf(const JointParams& p, const ModePoint& m)
+	{
+		Eigen::Matrix<Real, 2, 2> k = Eigen::Matrix<Real, 2, 2>::Zero();
+		if (m.mode == Mode::slide) {
+			const Vec2 c(1, -m.sign * psiOf(p, m));
+			k = slidingStiffness(p, m) * c * c.transpose();
+		} else if (m.mode != Mode::open)
+			k(0, 0) = p.kn, k(1, 1) = p.ks;
+		return k;
+	}
+
+	/// All springs: change of the stresses (sigma, tau) with opening and slip [Pa/m].
+	Eigen::Matrix<Real, 2, 2> tangentOf(const JointParams& p, const ModePoint& m)
+	{
+		const Stress              n = stressRate(p, m, 1, 0), t = stressRate(p, m, 0, 1);
+		Eigen::Matrix<Real, 2, 2> k;
+		k << n.sigma, t.sigma, n.tau, t.tau;
+		return k;
+	}
+
+	/// Opening and slip of a point by two motions side by side: a matrix of rows opening and slip.
+	Eigen::Matrix<Real, 2, 2> ofPoint(const LinearPoint& p, const std::vector<Real>& x)
+	{
+		Eigen::Matrix<Real, 2, 2> own;
+		own << times(p, p.n, &x[0], 2), times(p, p.n, &x[1], 2), times(p, p.t, &x[0], 2), times(p, p.t, &x[1], 2);
+		return own;
+	}
+
+	/// Whether a small matrix can be inverted without losing more than 5 of 16 digits.
+	bool wellConditioned(const Eigen::Matrix<Real, 2, 2>& a) { return std::abs(a.determinant()) > 1e-5 * a.squaredNorm(); }
+
+} // namespace
+
+void EventPath::addTo(Vector& f, int i, Real byN, Real byT) const
+{
+	const LinearPoint& p = m.points[i];
+	for (int k = 0; k < p.count; ++k)
+		f[p.unknown[k]] += byN * p.n[k] + byT * p.t[k];
+}
+
+void EventPath::spread(Direction& d, Real lambda) const
+{
+	d.n.resize(m.points.size());
+	d.t.resize(m.points.size());
+	for (size_t i = 0; i < m.points.size(); ++i) {
+		const LinearPoint& p = m.points[i];
+		Real               n = p.nDriven * lambda, t = p.tDriven * lambda;
+		for (int k = 0; k < p.count; ++k) {
+			const Real x = d.u[p.unknown[k]];
+			n += p.n[k] * x;
+			t += p.t[k] * x;
+		}
+		d.n[i] = n, d.t[i] = t;
+	}
+}
+
+void EventPath::factorise()
+{
+	std::vector<Eigen::Triplet<Real>> entries;
+	entries.reserve(36 * m.points.size() + m.unknowns);
+	for (size_t i = 0; i < m.points.size(); ++i) {
+		const LinearPoint& p = m.points[i];
+		const Two          s = p.area * springsOf(p.joint, is.modes[i]);
+		if (s.isZero(0)) continue;
+		for (int a = 0; a < p.count; ++a)
+			for (int b = 0; b < p.count; ++b)
+				if (p.unknown[b] >= p.unknown[a])
+					entries.emplace_back(p.unknown[a], p.unknown[b], Vec2(p.n[a], p.t[a]).dot(s * Vec2(p.n[b], p.t[b])));
+	}
+	for (int i = 0; i < m.unknowns; ++i)
+		if (anchorStiffness[i] > 0) entries.emplace_back(i, i, anchorStiffness[i]);
+	Eigen::SparseMatrix<Real> all(m.unknowns, m.unknowns);
+	all.setFromTriplets(entries.begin(), entries.end());
+	all += m.zones;
+	all.makeCompressed();
+	if (diagonal.size() == 0) diagonal = all.diagonal();
+	factor.reset(new SparseFactor(all));
+
+	constexpr Real singular = 1e-12; // of a pivot by its diagonal entry: rounding leaves 1e-15 times the length of a row
+	if (m.unknowns > 0 && !(factor->leastPivot() > singular)) {
+		Eigen::SparseMatrix<Real> held = all; // with soft springs everywhere, what nothing else holds moves most
+		for (int i = 0; i < m.unknowns; ++i)
+			held.coeffRef(i, i) += 1e-9 * std::max(diagonal[i], Real(1e-9) * diagonal.maxCoeff());
+		const SparseFactor soft(held);
+		Vector             motion = Vector::Zero(m.unknowns), none = motion;
+		motion[factor->rowOfLeastPivot()] = 1;
+		std::vector<Real> b(2 * m.unknowns, 0);
+		for (int round = 0; round < 3; ++round) {
+			for (int i = 0; i < m.unknowns; ++i)
+				b[2 * i] = motion[i];
+			soft.solveTwo(b);
+			for (int i = 0; i < m.unknowns; ++i)
+				motion[i] = b[2 * i];
+			motion /= motion.cwiseAbs().maxCoeff();
+		}
+		throw std::runtime_error("blocks can move without resistance; hold them: block " + blockNames(blocksThatMove(m, motion)));
+	}
+	collectFriction();
+}
+
+void EventPath::collectFriction()
+{
+	slides.clear();
+	frictionD.clear();
+	for (int i = 0; i < int(m.points.size()); ++i)
+		if (is.modes[i].mode == Mode::slide && m.points[i].area > 0 && frictionOf(m.points[i], is.modes[i]) != 0) {
+			slides.push_back(i);
+			frictionD.push_back(frictionOf(m.points[i], is.modes[i]));
+		}
+	const size_t s = slides.size();
+	g.resize(s, s);
+	std::vector<Real> x(2 * m.unknowns);
+	for (size_t j = 0; j < s; j += 2) { // two columns at a time
+		std::fill(x.begin(), x.end(), 0);
+		const size_t two = std::min<size_t>(2, s - j);
+		for (size_t column = 0; column < two; ++column) {
+			const LinearPoint& of = m.points[slides[j + column]];
+			for (int k = 0; k < of.count; ++k)
+				x[2 * of.unknown[k] + column] = of.t[k];
+		}
+		factor->solveTwo(x);
+		for (size_t column = 0; column < two; ++column)
+			for (size_t i = 0; i < s; ++i) {
+				const LinearPoint& p = m.points[slides[i]];
+				const ModePoint&   q = is.modes[slides[i]];
+				g(i, j + column)     = times(p, p.n, &x[column], 2) - q.sign * psiOf(p.joint, q) * times(p, p.t, &x[column], 2);
+			}
+	}
+	invertFriction();
+}
+
+/// W from G.
+void EventPath::invertFriction()
+{
+	sinceInverted = 0;
+	if (slides.empty()) return;
+	Dense h = g;
+	for (size_t j = 0; j < slides.size(); ++j)
+		h(j, j) += 1 / frictionD[j];
+	w = Eigen::PartialPivLU<Dense>(h).inverse();
+}
+
+/// pair = S^-1 B^T of a point, and what it does to the sliding ones.
+void EventPath::solvePoint(const LinearPoint& p)
+{
+	pair.assign(2 * m.unknowns, 0);
+	for (int k = 0; k < p.count; ++k)
+		pair[2 * p.unknown[k]] = p.n[k], pair[2 * p.unknown[k] + 1] = p.t[k];
+	factor->solveTwo(pair);
+}
+
+/// A point goes into its next mode and loses `jump` of its stress: factors, W and directions follow.
+void EventPath::change(int i, const ModePoint& next, const Stress& jump)
+{
+	constexpr Real     singular = 1e-9; // of what is left of the stiffness where a spring goes
+	const LinearPoint& p        = m.points[i];
+	const ModePoint    now      = is.modes[i];
+	const Two  delta = p.area * (springsOf(p.joint, next) - springsOf(p.joint, now)), by = p.area * (tangentOf(p.joint, next) - tangentOf(p.joint, now));
+	const bool loses = jump.sigma != 0 || jump.tau != 0;
+	if (by.isZero(0) && !loses) {
+		is.modes[i] = next;
+		return;
+	}
+	++changes;
+	solvePoint(p);
+	Two own = ofPoint(p, pair), left = Two::Identity() + delta * own;
+	if (delta.trace() < 0) {
+		const Real half = left.trace() / 2, det = left.determinant(), root = std::sqrt(std::max(Real(0), half * half - det)), least = half - root;
+		if (!(least > singular)) {
+			Vec2 v(left(0, 1), least - left(0, 0)); // left v = least v
+			if (v.norm() <= std::abs(least - left(1, 1))) v = Vec2(least - left(1, 1), left(1, 0));
+			if (v.isZero(0)) v = Vec2(1, 0);
+			// delta own f = -f for f = v: the motion is S^-1 B^T f
+			Vector motion(m.unknowns);
+			for (int k = 0; k < m.unknowns; ++k)
+				motion[k] = v[0] * pair[2 * k] + v[1] * pair[2 * k + 1];
+			if (anchor(motion)) {
+				solvePoint(p);
+				own  = ofPoint(p, pair);
+				left = Two::Identity() + delta * own;
+			}
+		}
+	}
+	const int s = int(slides.size());
+	vY.resize(s, 2), uY.resize(s, 2);
+	for (int j = 0; j < s; ++j) {
+		const LinearPoint& q    = m.points[slides[j]];
+		const ModePoint&   mode = is.modes[slides[j]];
+		for (int k : { 0, 1 }) {
+			uY(j, k) = times(q, q.t, &pair[k], 2);
+			vY(j, k) = times(q, q.n, &pair[k], 2) - mode.sign * psiOf(q.joint, mode) * uY(j, k);
+		}
+	}
+	followDirections(i, by, { p.area * jump.sigma, p.area * jump.tau });
+
+	const Two after = left.inverse(); // S'^-1 B^T = S^-1 B^T after
+	bool      exact = followFriction(after * delta);
+	vY = (vY * after).eval(), uY = (uY * after).eval(), own = (own * after).eval();
+	followFactors(p, delta);
+	exact       = dropFriction(i) && exact;
+	is.modes[i] = next;
+	exact       = addFriction(i, own) && exact;
+	if (!slides.empty() && (!exact || ++sinceInverted > refreshAfter)) invertFriction();
+}
+
+/// The directions of the next mode, where they are known; `jump` is a force [N].
+void EventPath::followDirections(int i, const Two& by, const Stress& jump)
+{
+	const LinearPoint& p     = m.points[i];
+	const bool         loses = jump.sigma != 0 || jump.tau != 0;
+	if (!onLoad.known && !onRelease.known) return;
+	second = pair; // K^-1 B^T
+	withFriction(second, vY);
+	const Two left = Two::Identity() + by * ofPoint(p, second);
+	if (!wellConditioned(left)) {
+		onLoad.known = onRelease.known = false;
+		return;
+	}
+	const Two after  = left.inverse();
+	auto      follow = [&](Direction& d, Real lambda, const Vec2& more) {
+                const Vec2 f = after * (more - by * Vec2(d.n[i], d.t[i]));
+                for (int k = 0; k < m.unknowns; ++k)
+                        d.u[k] += second[2 * k] * f[0] + second[2 * k + 1] * f[1];
+                spread(d, lambda);
+	};
+	if (onLoad.known) follow(onLoad, 1, Vec2::Zero());
+	if (onRelease.known && (r > 0 || loses)) follow(onRelease, 0, Vec2(jump.sigma, jump.tau));
+}
+
+/// x -= S^-1 U W t.
+void EventPath::withFriction(std::vector<Real>& x, const Columns& t)
+{
+	const int s = int(slides.size());
+	if (s == 0) return;
+	const Columns y = w * t;
+	third.assign(2 * m.unknowns, 0);
+	for (int j = 0; j < s; ++j) {
+		const LinearPoint& q = m.points[slides[j]];
+		for (int k = 0; k < q.count; ++k)
+			third[2 * q.unknown[k]] += q.t[k] * y(j, 0), third[2 * q.unknown[k] + 1] += q.t[k] * y(j, 1);
+	}
+	factor->solveTwo(third);
+	for (size_t k = 0; k < x.size(); ++k)
+		x[k] -= third[k];
+}
+
+/// G and W where S^-1 loses S^-1 B^T c B S^-1. False if W is not exact enough.
+bool EventPath::followFriction(const Two& c)
+{
+	if (slides.empty()) return true;
+	g.noalias() -= (vY * c) * uY.transpose();
+	const Columns                                wv   = w * vY;
+	const Eigen::Matrix<Real, 2, Eigen::Dynamic> uw   = uY.transpose() * w;
+	const Two                                    core = Two::Identity() - c * (uY.transpose() * wv);
+	if (!wellConditioned(core)) return false;
+	w.noalias() += (wv * (core.inverse() * c)) * uw;
+	return true;
+}
+
+/// S += B^T delta B, a symmetric 2x2, what comes before what goes.
+void EventPath::followFactors(const LinearPoint& p, const Two& delta)
+{
+	if (delta.isZero(0)) return;
+	if (delta(0, 1) == 0) {
+		if (delta(0, 0) * delta(1, 1) > 0) {
+			factor->add(delta(0, 0), entriesOf(p, 1, 0), delta(1, 1), entriesOf(p, 0, 1));
+			return;
+		}
+		for (bool up : { true, false }) {
+			if ((delta(0, 0) > 0) == up) factor->add(delta(0, 0), entriesOf(p, 1, 0));
+			if ((delta(1, 1) > 0) == up) factor->add(delta(1, 1), entriesOf(p, 0, 1));
+		}
+		return;
+	}
+	const Real half = delta.trace() / 2, off = delta(0, 1), diff = (delta(0, 0) - delta(1, 1)) / 2, root = std::hypot(diff, off);
+	for (Real value : { half + root, half - root }) {
+		Vec2 v(off, value - delta(0, 0));
+		v.normalize();
+		factor->add(value, entriesOf(p, v[0], v[1]));
+	}
+}
+
+/// Takes a point out of U and V, if it is there. False if W is not exact enough.
+bool EventPath::dropFriction(int i)
+{
+	const auto known = std::find(slides.begin(), slides.end(), i);
+	if (known == slides.end()) return true;
+	const int at = int(known - slides.begin()), last = int(slides.size()) - 1; // the last takes its place
+	for (Dense* of : { &g, &w }) {
+		of->row(at).swap(of->row(last));
+		of->col(at).swap(of->col(last));
+	}
+	for (Columns* of : { &vY, &uY })
+		of->row(at).swap(of->row(last)), of->conservativeResize(last, 2);
+	std::swap(slides[at], slides[last]);
+	std::swap(frictionD[at], frictionD[last]);
+	const Real corner = w(last, last), d = frictionD.back();
+	slides.pop_back();
+	frictionD.pop_back();
+	w.topLeftCorner(last, last) -= (w.col(last).head(last) / corner * w.row(last).head(last)).eval();
+	g.conservativeResize(last, last);
+	w.conservativeResize(last, last);
+	return std::abs(corner) > 1e-5 * std::abs(d);
+}
+
+/// Puts a point into U and V if it slides now; `own` is B S^-1 B^T. False if W is not exact enough.
+bool EventPath::addFriction(int i, const Two& own)
+{
+	const LinearPoint& p    = m.points[i];
+	const ModePoint&   mode = is.modes[i];
+	const Real         d    = mode.mode == Mode::slide ? frictionOf(p, mode) : 0;
+	if (d == 0) return true;
+	const int    s      = int(slides.size());
+	const Real   psi    = mode.sign * psiOf(p.joint, mode);
+	const Vector column = vY.col(1), row = uY.col(0) - psi * uY.col(1);
+	const Real   corner = own(0, 1) - psi * own(1, 1);
+	g.conservativeResize(s + 1, s + 1);
+	g.col(s).head(s) = column;
+	g.row(s).head(s) = row.transpose();
+	g(s, s)          = corner;
+	slides.push_back(i);
+	frictionD.push_back(d);
+
+	const Vector wc = w.topLeftCorner(s, s) * column, rw = w.topLeftCorner(s, s).transpose() * row;
+	const Real   left = 1 / d + corner - row.dot(wc);
+	w.conservativeResize(s + 1, s + 1);
+	w.topLeftCorner(s, s) += wc * rw.transpose() / left;
+	w.col(s).head(s) = -wc / left;
+	w.row(s).head(s) = -rw.transpose() / left;
+	w(s, s)          = 1 / left;
+	return std::abs(left) > 1e-5 * std::abs(1 / d);
+}
+
+/// Soft springs on the blocks of a motion that nothing resists. False if they have them already.
+bool EventPath::anchor(const Vector& motion)
+{
+	bool any = false;
+	for (int block : blocksThatMove(m, motion)) {
+		if (std::find(loose.begin(), loose.end(), block) != loose.end()) continue;
+		loose.push_back(block);
+		any = true;
+		for (int i = 0; i < m.unknowns; ++i)
+			if (m.blockOfUnknown[i] == block) {
+				anchorStiffness[i] = anchorShare * diagonal[i];
+				anchorOrigin[i]    = is.u[i];
+				factor->add(anchorStiffness[i], { { i, 1 } });
+			}
+	}
+	if (any) {
+		collectFriction();
+		onLoad.known = onRelease.known = false;
+	}
+	return any;
+}
+
+/// a = K^-1 a and b = K^-1 b.
+void EventPath::solvePair(Vector& a, Vector& b)
+{
+	std::vector<Real>& x = pair;
+	x.resize(2 * m.unknowns);
+	for (int i = 0; i < m.unknowns; ++i)
+		x[2 * i] = a[i], x[2 * i + 1] = b[i];
+	factor->solveTwo(x);
+	const int s = int(slides.size());
+	Columns   t(s, 2);
+	for (int j = 0; j < s; ++j) {
+		const LinearPoint& q    = m.points[slides[j]];
+		const ModePoint&   mode = is.modes[slides[j]];
+		for (int k : { 0, 1 })
+			t(j, k) = times(q, q.n, &x[k], 2) - mode.sign * psiOf(q.joint, mode) * times(q, q.t, &x[k], 2);
+	}
+	withFriction(x, t);
+	for (int i = 0; i < m.unknowns; ++i)
+		a[i] = x[2 * i], b[i] = x[2 * i + 1];
+}
+
+Vector EventPath::solve(const Vector& f)
+{
+	Vector x = f, none = Vector::Zero(m.unknowns);
+	solvePair(x, none);
+	return x;
+}
+
+} // namespace blocks
