@@ -6,6 +6,7 @@
 	stop = loading.Stop(drop=0.5, displacement=3e-3)
 	O.engines += [PyRunner(command="stop(model.groupTravelled('top'), stress(), broken())", iterPeriod=100)]
 """
+from . import running
 from .curves import Peak
 
 
@@ -102,6 +103,5 @@ class Stop:
 		elif self.displacement is not None and abs(displacement) >= self.displacement: self.reason = 'displacement'
 		elif self.cracks is not None and broken >= self.cracks: self.reason = 'cracks'
 		else: return False
-		from yade.wrapper import Omega
-		Omega().stopAtIter = Omega().iter + 1 # a pause would let O.run(n, True) return within this step
+		running.end() # a pause would let O.run(n, True) return within this step
 		return True
