@@ -71,37 +71,39 @@ def run(steps=None, pause=None, every=0):
 def _stretch(O, last, until):
 	"""Runs on; whether this was all. If not, the run rests between two steps because the time `until` has come. last: the step to stop at, 0 for none."""
 	errors, asked, O.stopAtIter = [], False, last
+	over = threading.Event() # not Thread.join: interrupted, it takes the thread for one that has ended (Python 3.11)
 
 	def work():
 		try:
 			O.run(-1, True)
 		except BaseException as error:
 			errors.append(error)
+		finally:
+			over.set()
 
-	thread, first, began = threading.Thread(target=work, daemon=True), O.iter, time.monotonic()
-	thread.start()
+	first, began = O.iter, time.monotonic()
+	threading.Thread(target=work, daemon=True).start()
 	try:
-		while thread.is_alive():
-			thread.join(look if until is None else max(0, min(look, until - time.monotonic())))
-			if until is not None and time.monotonic() >= until and thread.is_alive():
+		while not over.wait(look if until is None else max(0, min(look, until - time.monotonic()))):
+			if until is not None and time.monotonic() >= until:
 				asked = True
-				_rest(O, thread, last, began, first)
+				_rest(O, over, last, began, first)
 	except BaseException:
-		_rest(O, thread, last, began, first)
+		_rest(O, over, last, began, first)
 		raise
 	if errors: raise errors[0]
 	return not asked or _ending.is_set() or O.iter == last > 0
 
 
-def _rest(O, thread, last, began, first):
-	"""Ends the run between two steps, soon. began, first: when it began, and at which step."""
+def _rest(O, over, last, began, first):
+	"""Ends the run between two steps, soon. began, first: when it began, and at which step; over: set where it has ended."""
 	soon = 0.01 # seconds ahead; more where the run has passed the step before it could be stopped there
-	while thread.is_alive():
+	while not over.is_set():
 		with _lock:
 			speed = (O.iter - first) / max(time.monotonic() - began, 1e-3)
 			at, other = O.iter + 1 + int(soon * speed), O.stopAtIter # YADE makes it negative when it has stopped
 			ends = _ending.is_set() or O.iter < last <= at or other > O.iter and other != last
 			if not ends: O.stopAtIter = at
-		while thread.is_alive() and (ends or O.iter <= at):
-			thread.join(0.002)
+		while not over.is_set() and (ends or O.iter <= at):
+			over.wait(0.002)
 		soon *= 2
