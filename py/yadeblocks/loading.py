@@ -12,6 +12,7 @@ From event to event, the exact answer of the brittle model, instead of in time s
 """
 import math
 
+from . import running
 from .curves import Peak
 from .progress import Progress
 
@@ -125,6 +126,5 @@ class Stop:
 		elif self.displacement is not None and abs(displacement) >= self.displacement: self.reason = 'displacement'
 		elif self.cracks is not None and broken >= self.cracks: self.reason = 'cracks'
 		else: return False
-		from yade.wrapper import Omega
-		Omega().stopAtIter = Omega().iter + 1 # a pause would let O.run(n, True) return within this step
+		running.end() # a pause would let O.run(n, True) return within this step
 		return True
