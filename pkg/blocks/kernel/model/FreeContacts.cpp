@@ -94,6 +94,7 @@ void nameEdges(const BlockAssembly& a, EdgePair& e)
 void forgetActive(FreeContact& contact)
 {
 	contact.allRestUntil = 0;
+	contact.looks        = 0;
 	contact.restsUntil.assign(contact.edges.size(), 0);
 	contact.active.clear();
 	contact.active.reserve(contact.edges.size()); // nothing is allocated inside a step

@@ -36,6 +36,7 @@ struct FreeContact {
 	std::vector<EdgePair>     edges;            ///< sorted by edge
 	std::vector<EdgeGeometry> geometry;         ///< of each of `active`, and room for all that might be
 	std::vector<Real>         restsUntil;       ///< of each of `edges`: it does not touch before the paths of the two blocks add up to this [m]
+	unsigned                  looks    = 0;     ///< since its pairs were found
 	Real                      friction = 0;     ///< dissipated so far [J]
 	JointParams               joint;            ///< residual values count; kn = 0 until they are known
 };

@@ -100,22 +100,24 @@ namespace {
 		forgetActive(contact);
 	}
 
-	/// The contact of two blocks, made if there is none. Its properties are those of the two materials, if they are known.
-	int makeContact(BlockAssembly& a, const std::array<int, 2>& blocks)
+	/// Contacts of those pairs of blocks [sorted] that have none. Their properties are those of the two materials, if they are known.
+	void makeContacts(BlockAssembly& a, const std::vector<std::array<int, 2>>& wanted)
 	{
-		const int is = contactOf(a, blocks[0], blocks[1]);
-		if (is >= 0) return is;
 		std::vector<FreeContact>& all  = a.state.contacts;
-		int                       slot = 0;
-		while (slot < int(all.size()) && all[slot].block[0] >= 0)
-			++slot;
-		if (slot == int(all.size())) all.emplace_back();
-		all[slot]       = {};
-		all[slot].block = blocks;
-		const int kind  = a.joints.kindOfMaterials(a.mesh.blockMaterial[blocks[0]], a.mesh.blockMaterial[blocks[1]]);
-		if (kind > 0) all[slot].joint = a.joints.kinds[kind];
-		sortContacts(a);
-		return slot;
+		size_t                    slot = 0, made = 0;
+		for (size_t i = 0; i < wanted.size(); ++i) {
+			const auto& blocks = wanted[i];
+			if ((i > 0 && wanted[i - 1] == blocks) || contactOf(a, blocks[0], blocks[1]) >= 0) continue;
+			while (slot < all.size() && all[slot].block[0] >= 0)
+				++slot;
+			if (slot == all.size()) all.emplace_back();
+			all[slot]       = {};
+			all[slot].block = blocks;
+			const int kind  = a.joints.kindOfMaterials(a.mesh.blockMaterial[blocks[0]], a.mesh.blockMaterial[blocks[1]]);
+			if (kind > 0) all[slot].joint = a.joints.kinds[kind];
+			++made;
+		}
+		if (made > 0) sortContacts(a);
 	}
 
 	/// A joint dilates until it has slid by its limit slip, or by this share of its length.
@@ -279,15 +281,22 @@ namespace {
 			changed = true;
 		}
 		if (changed) sortContacts(a);
+		std::vector<std::array<int, 2>>    keys;
+		std::vector<std::vector<EdgePair>> edges;
 		for (const auto& key : newNeighbours(a, moved)) {
 			FreeContact candidate;
 			candidate.block = key;
 			detect(a, candidate);
 			if (candidate.edges.empty()) continue; // near, but no edges that could touch
-			FreeContact& made = a.state.contacts[makeContact(a, key)];
-			made.edges        = std::move(candidate.edges);
-			forgetActive(made);
+			keys.push_back(key);
+			edges.push_back(std::move(candidate.edges));
 			changed = true;
+		}
+		makeContacts(a, keys);
+		for (size_t i = 0; i < keys.size(); ++i) {
+			FreeContact& made = a.state.contacts[contactOf(a, keys[i][0], keys[i][1])];
+			made.edges        = std::move(edges[i]);
+			forgetActive(made);
 		}
 		if (changed) ++f.version;
 	}
@@ -311,16 +320,20 @@ namespace {
 
 	void releaseBroken(BlockAssembly& a)
 	{
-		FreeContacts& f    = a.contacts;
-		size_t        kept = 0;
-		for (int joint : f.waiting) {
-			if (releaseOf(a, joint) != Release::now)
-				f.waiting[kept++] = joint;
+		FreeContacts&                   f    = a.contacts;
+		size_t                          kept = 0;
+		std::vector<int>                now;
+		std::vector<std::array<int, 2>> blocks;
+		for (int joint : f.waiting)
+			if (releaseOf(a, joint) == Release::now)
+				now.push_back(joint), blocks.push_back(a.joints.segments[joint].block);
 			else
-				release(a, joint, makeContact(a, a.joints.segments[joint].block));
-		}
-		if (kept == f.waiting.size()) return;
+				f.waiting[kept++] = joint;
+		if (now.empty()) return;
 		f.waiting.resize(kept);
+		makeContacts(a, blocks);
+		for (size_t i = 0; i < now.size(); ++i)
+			release(a, now[i], contactOf(a, blocks[i][0], blocks[i][1]));
 		a.listSides();
 		++f.version;
 	}

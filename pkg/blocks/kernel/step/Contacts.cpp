@@ -10,6 +10,9 @@ namespace {
 	/// Paths are sums over up to 1e9 steps: what is derived from them keeps this much away from rounding.
 	constexpr Real roundingShare = 1 - 1e-6;
 
+	/// Of so many looks at a contact one measures how far its pairs are from touching. No result depends on it.
+	constexpr int measuredLook = 8;
+
 	/// The two blocks of a contact together [m].
 	Real pathOf(const BlockAssembly& a, const FreeContact& c) { return a.contacts.odometer.path[c.block[0]] + a.contacts.odometer.path[c.block[1]]; }
 
@@ -45,6 +48,8 @@ WIDE void updateContact(BlockAssembly& a, int contact)
 {
 	FreeContact& c    = a.state.contacts[contact];
 	const Real   path = pathOf(a, c);
+	// Pairs at one corner have no distance that they could rest for: asking for it costs more than looking again.
+	const bool measures = c.looks++ % measuredLook == 0;
 
 	/// Whether a pair touches, and what it is like if it does.
 	auto look = [&](int i, EdgeGeometry& g) {
@@ -57,9 +62,12 @@ WIDE void updateContact(BlockAssembly& a, int contact)
 				e.slip = e.sigma = e.tau = { 0, 0 };
 				e.area                   = 0;
 			}
-			const Real lever = 1 + 2 * e.uplift / (x[1] - x[0]).norm(); // what is raised moves more where the edge turns
-			c.restsUntil[i]  = path + roundingShare * freeDistance(x, e.shape) / lever;
-			c.allRestUntil   = std::min(c.allRestUntil, c.restsUntil[i]);
+			c.restsUntil[i] = path;
+			if (measures) {
+				const Real lever = 1 + 2 * e.uplift / (x[1] - x[0]).norm(); // what is raised moves more where the edge turns
+				c.restsUntil[i] += roundingShare * freeDistance(x, e.shape) / lever;
+			}
+			c.allRestUntil = std::min(c.allRestUntil, c.restsUntil[i]);
 		}
 		return e.touching = g.active;
 	};
