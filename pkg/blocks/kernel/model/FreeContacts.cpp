@@ -58,6 +58,7 @@ Real meanEdge(const BlockAssembly& a, int block)
 void sortContacts(BlockAssembly& a)
 {
 	FreeContacts& f = a.contacts;
+	f.sleepsUntil.assign(a.state.contacts.size(), 0);
 	f.order.clear();
 	for (int i = 0; i < int(a.state.contacts.size()); ++i)
 		if (a.state.contacts[i].block[0] >= 0) f.order.push_back(i);

@@ -72,6 +72,7 @@ struct FreeContacts {
 	std::vector<Real> depthLimit, meanEdge; ///< of blocks [m]
 
 	// ---- how far things have moved
+	std::vector<Real> sleepsUntil; ///< contact -> nothing of it touches before the paths of its two blocks add up to this; 0: to be looked at [m]
 	Odometer         odometer;
 	std::vector<int> waiting; ///< broken joints that will be released, in their order
 

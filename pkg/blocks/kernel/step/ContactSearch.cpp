@@ -267,6 +267,7 @@ namespace {
 		++f.looks;
 		if (moved.empty()) return;
 
+		f.sleepsUntil.assign(a.state.contacts.size(), 0);
 		std::vector<char> hasMoved(a.blockCount(), false);
 		for (int b : moved)
 			hasMoved[b] = true;
@@ -334,6 +335,7 @@ namespace {
 		makeContacts(a, blocks);
 		for (size_t i = 0; i < now.size(); ++i)
 			release(a, now[i], contactOf(a, blocks[i][0], blocks[i][1]));
+		f.sleepsUntil.assign(a.state.contacts.size(), 0);
 		a.listSides();
 		++f.version;
 	}
