@@ -128,10 +128,18 @@ namespace {
 	{
 		const JointParams& p = a.joints.of(joint);
 		for (int i : { 2 * joint, 2 * joint + 1 })
-			if (a.state.status[i] == Joint::intact) return Release::never; // until it breaks, which will be noticed
+			if (a.state.status[i] == Joint::intact || a.state.status[i] == Joint::softening)
+				return Release::never; // until it breaks, which will be noticed
+		if (a.joints.softens(joint)) {
+			const Softened& soft = a.state.softened;
+			if (a.joints.softeningOf(joint).cap.strength > 0) return Release::never; // free contacts have no cap
+			for (int i : { 2 * joint, 2 * joint + 1 })
+				if (a.state.status[i] != Joint::unbonded && soft.k[i] < softeningEnd) return Release::later; // some bond is left
+		}
 		for (int i : { 2 * joint, 2 * joint + 1 }) {
 			if (a.state.sigma[i] > 0) return Release::later; // residual tension stays with the point law
-			if (p.tanDilation > 0 && a.state.sigma[i] < 0    // so does a joint that goes on dilating
+			// so does a joint that goes on dilating, and one that rests on ends raised by different amounts, which a free contact would level
+			if (a.state.sigma[i] < 0 && (p.tanDilation > 0 || a.state.uplift[2 * joint] != a.state.uplift[2 * joint + 1])
 			    && std::abs(a.state.slipPlastic[i]) < std::min(p.dilationLimitSlip, dilatesFor * 2 * a.joints.segments[joint].area / a.thickness))
 				return Release::later;
 		}
@@ -139,12 +147,14 @@ namespace {
 	}
 
 	/// Turns a broken joint into a free edge pair, which takes over its slip.
-	void release(BlockAssembly& a, int joint, int contact)
+	void release(BlockAssembly& a, int joint)
 	{
-		const Segment& g = a.joints.segments[joint];
+		const Segment& g       = a.joints.segments[joint];
+		const bool     made    = contactOf(a, g.block[0], g.block[1]) < 0;
+		const int      contact = makeContact(a, g.block);
 		a.releaseJoint(joint); // from here on it carries nothing
 		FreeContact& c = a.state.contacts[contact];
-		if (!(c.joint.kn > 0)) c.joint = a.joints.of(joint);
+		if (made || !(c.joint.kn > 0)) c.joint = a.joints.of(joint); // not those of two materials that were never bonded
 		detect(a, c);
 		const auto key = edgesOf(a, g);
 		const auto at
@@ -317,7 +327,7 @@ namespace {
 			if (releaseOf(a, joint) != Release::now)
 				f.waiting[kept++] = joint;
 			else
-				release(a, joint, makeContact(a, a.joints.segments[joint].block));
+				release(a, joint);
 		}
 		if (kept == f.waiting.size()) return;
 		f.waiting.resize(kept);
