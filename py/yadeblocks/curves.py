@@ -17,6 +17,14 @@ def peak(x, y, smooth=0.0):
 	return np.convolve(y, np.ones(window) / window, mode="valid").max(), top
 
 
+def behindPeak(x, y, share):
+	"""The integral of y over x from the highest sample until y has fallen to `share` of it; NaN if it does not fall so far."""
+	x, y = np.asarray(x, float), np.asarray(y, float)
+	top = int(y.argmax())
+	low = np.flatnonzero(y[top:] <= share * y[top])
+	return np.trapz(y[top:top + low[0] + 1], x[top:top + low[0] + 1]) if len(low) else math.nan
+
+
 def residual(x, y):
 	"""The mean of y over the last quarter of the path x; NaN if there is no path."""
 	x, y = np.asarray(x, float), np.asarray(y, float)

@@ -68,7 +68,7 @@ class BlocksExport:
 
 	Zones: block, material (number in O.materials' order), stresses sxx, syy, sxy and principal stresses s1, s2 [Pa]; grid points:
 	displacement [m], velocity [m/s]; joints: firstBlock, secondBlock, opening [m], slip [m], sigma [Pa], tau [Pa], status (0 intact,
-	1 broken in tension, 2 in shear, 3 never bonded)."""
+	1 broken in tension, 2 in shear, 3 never bonded, 4 softening), damage (0 whole to 1, only residual strength is left)."""
 	def __init__(self, folder):
 		self.folder = Path(folder)
 		self.folder.mkdir(parents=True, exist_ok=True)
@@ -118,7 +118,7 @@ def _joints(model, untouched):
 	lines = contactLines(model, model.reference if untouched else model.position)
 	first, second = np.repeat(np.asarray(model.segmentBlocks, np.int32), 2, axis=0).T
 	cells = {"firstBlock": first, "secondBlock": second}
-	for name in ("opening", "slip", "sigma", "tau"):
+	for name in ("opening", "slip", "sigma", "tau", "damage"):
 		values = np.array(getattr(model, "point" + name.capitalize()))
 		cells[name] = np.zeros_like(values) if untouched else values
 	status = np.array(model.pointStatus, np.uint8)

@@ -31,10 +31,12 @@ void BlockLoop::computeForces(BlockModel& model, int threads)
 	model.requireProperties();
 	if (contact != a.contacts.wanted) blocks::setGeneralContact(a, contact);
 	if (law) {
+		if (a.joints.anySoftens())
+			throw std::runtime_error("BlockLoop.law: a law of one's own has no joints that soften; JointMat.GfI and GfII must be 0 with it");
 		const LawOnRange own(*law, model);
 		blocks::computeForces(a, own, scene->dt, scene->trackEnergy, threads);
 	} else
-		blocks::computeForces(a, blocks::Brittle {}, scene->dt, scene->trackEnergy, threads);
+		blocks::withOwnLaw(a, [&](const auto& its) { blocks::computeForces(a, its, scene->dt, scene->trackEnergy, threads); });
 	if (contact) showContacts(scene, model);
 }
 

@@ -30,7 +30,7 @@ void Ip2_BlockMat_BlockMat_JointPhys::go(
 				"Ip2_BlockMat_BlockMat_JointPhys.joints has no JointMat for the pair of materials \"" + std::min(a, b) + "\" and \""
 				+ std::max(a, b) + "\", whose blocks touch");
 		else if (geom->pair >= 0)
-			geom->model->setJoint(geom->pair, joint->params(), joint->bonded);
+			geom->model->setJoint(geom->pair, *joint);
 		else
 			blocks::setContactJoint(geom->model->assembly, geom->contact, blocks::neverBonded(joint->params()));
 	} catch (const std::exception& error) { // changed after it was checked
@@ -53,7 +53,16 @@ py::list Ip2_BlockMat_BlockMat_JointPhys::getJoints() const
 	return list;
 }
 
-void Ip2_BlockMat_BlockMat_JointPhys::setJoints(const py::object& joints) { jointList = checkedJoints(joints); }
+void Ip2_BlockMat_BlockMat_JointPhys::setJoints(const py::object& joints)
+{
+	auto checked = checkedJoints(joints);
+	for (const auto& joint : checked) // its columns must be there before several threads use them
+		blocks::require(
+			!joint->softening().softens(),
+			"joints that soften have their properties from BlockModel.bond(): JointMat.GfI in Ip2_BlockMat_BlockMat_JointPhys.joints must be 0",
+			joint->GfI);
+	jointList = std::move(checked);
+}
 
 YADE_PLUGIN((Ip2_BlockMat_BlockMat_JointPhys));
 

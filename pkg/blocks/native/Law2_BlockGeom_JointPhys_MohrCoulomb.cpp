@@ -11,7 +11,7 @@ bool Law2_BlockGeom_JointPhys_MohrCoulomb::go(shared_ptr<IGeom>& geom, shared_pt
 {
 	const auto* g = static_cast<const BlockGeom*>(geom.get());
 	auto&       a = g->model->assembly;
-	if (g->pair >= 0) blocks::advanceStresses(a, blocks::jointsOf(a, g->pair), blocks::Brittle {});
+	if (g->pair >= 0) blocks::withOwnLaw(a, [&](const auto& law) { blocks::advanceStresses(a, blocks::jointsOf(a, g->pair), law); });
 	if (g->contact >= 0) blocks::advanceContact(a, g->contact, scene->dt);
 	return g->pair >= 0 || g->contact >= 0; // blocks that have parted are no more
 }

@@ -88,6 +88,18 @@ namespace {
 		return out;
 	}
 
+	py::object damages(const py::object& self)
+	{
+		BlockAssembly& a = arrays(self);
+		startNumpy();
+		np::ndarray out  = np::empty(py::make_tuple(a.pointCount()), np::dtype::get_builtin<Real>());
+		Real*       data = reinterpret_cast<Real*>(out.get_data());
+		for (int i = 0; i < a.pointCount(); ++i)
+			data[i] = blocks::damageOf(a, i);
+		out.attr("setflags")(false);
+		return out;
+	}
+
 	py::object position(const py::object& self)
 	{
 		BlockAssembly& a = arrays(self);
@@ -142,6 +154,7 @@ namespace {
 		return text;
 	}
 
+	long snappedBack(const BlockModel& m) { return m.assembly.state.softened.snapped; }
 	int  blockCount(const BlockModel& m) { return m.assembly.blockCount(); }
 	int  nodeCount(const BlockModel& m) { return m.assembly.nodeCount(); }
 	int  zoneCount(const BlockModel& m) { return m.assembly.zoneCount(); }
@@ -203,7 +216,9 @@ void defineArrays(PythonModel& c)
 		.add_property("pointSlip", py::make_function(&motion<&blocks::State::slip>), "Slips of the contact points [m].")
 		.add_property("pointSigma", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).state.sigma, 1, Use::result); }), "Normal stresses of the contact points, tension positive [Pa].")
 		.add_property("pointTau", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).state.tau, 1, Use::result); }), "Shear stresses of the contact points [Pa].")
-		.add_property("pointStatus", py::make_function(+[](py::object self) -> py::object { return view<std::uint8_t>(self, arrays(self).state.status, 1, Use::result); }), "0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded.");
+		.add_property("pointStatus", py::make_function(+[](py::object self) -> py::object { return view<std::uint8_t>(self, arrays(self).state.status, 1, Use::result); }), "0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded, 4 softening: beyond its peak. A joint that softens counts as broken from a damage of 0.9 on.")
+		.add_property("pointDamage", py::make_function(&damages), "Damage of the contact points: 0 whole or never bonded, 1 nothing but residual strength is left; joints that do not soften have no other values. A copy.")
+		.add_property("snappedBack", &snappedBack, "How often a contact point of a joint that softens has snapped back: its pressure was too high for the stress to follow the softening curve, and it dropped to it.");
 	// clang-format on
 }
 

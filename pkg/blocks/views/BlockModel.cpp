@@ -144,19 +144,20 @@ int BlockModel::bond(const vector<shared_ptr<JointMat>>& list, Real tolerance)
 	}
 	if (!list.empty())
 		for (size_t pair = 0; pair < a.joints.pairs.size(); ++pair) {
-			const auto&     block = a.joints.pairs[pair].block;
-			const JointMat& joint
-				= *jointBetween(list, materialLabels[a.mesh.blockMaterial[block[0]]], materialLabels[a.mesh.blockMaterial[block[1]]]);
-			setJoint(int(pair), joint.params(), joint.bonded);
+			const auto& block = a.joints.pairs[pair].block;
+			setJoint(
+				int(pair), *jointBetween(list, materialLabels[a.mesh.blockMaterial[block[0]]], materialLabels[a.mesh.blockMaterial[block[1]]]));
 		}
 	return int(a.joints.pairs.size());
 }
 
-void BlockModel::setJoint(int pair, const blocks::JointParams& params, bool bonded)
+void BlockModel::setJoint(int pair, const JointMat& joint)
 {
+	const blocks::JointParams         params    = joint.params();
+	const blocks::SofteningParams     softening = joint.softening();
 	const std::lock_guard<std::mutex> lock(complaintMutex);
 	const auto&                       p = assembly.joints.pairs[pair];
-	assembly.setJoints(p.first, p.last, params, bonded ? blocks::Joint::intact : blocks::Joint::unbonded);
+	assembly.setJoints(p.first, p.last, params, joint.bonded ? blocks::Joint::intact : blocks::Joint::unbonded, softening);
 	stiffnessChanged();
 }
 

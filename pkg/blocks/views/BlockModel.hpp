@@ -56,8 +56,8 @@ public:
 	/// Finds the joints and gives them their properties, unless the list is empty; the number of pairs.
 	int bond(const vector<shared_ptr<JointMat>>&, Real tolerance);
 
-	/// Properties of a pair's joints, and whether they are whole; several threads may do this for different pairs.
-	void setJoint(int pair, const blocks::JointParams&, bool bonded);
+	/// Properties of a pair's joints, and whether they are whole; several threads may do this for different pairs, with joints that do not soften.
+	void setJoint(int pair, const JointMat&);
 
 	/// Refuses joints without properties.
 	void requireProperties();

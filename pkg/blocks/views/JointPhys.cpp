@@ -22,6 +22,9 @@ void JointPhys::setJoint(const blocks::JointParams& params)
 	auto& a = model->assembly;
 	if (pair >= 0)
 		for (int i = a.joints.pairs[pair].first; i < a.joints.pairs[pair].last; ++i)
+			a.requireChangeable(i, params, a.joints.softeningOf(i)); // all before any is set
+	if (pair >= 0)
+		for (int i = a.joints.pairs[pair].first; i < a.joints.pairs[pair].last; ++i)
 			a.changeJoint(i, params);
 	if (contact >= 0) blocks::setContactJoint(a, contact, params);
 	model->stiffnessChanged();
@@ -86,7 +89,8 @@ void JointPhysPython::visit(py::class_<JointPhys, shared_ptr<JointPhys>, py::bas
 		.add_property("dilationAngle", &getAngle<&P::tanDilation>, &setAngle<&P::tanDilation>, "Dilation angle [rad].")
 		.add_property("sigma", &sigma, "Normal stresses at the pair's contact points, tension positive [Pa].")
 		.add_property("tau", &tau, "Shear stresses at the pair's contact points [Pa].")
-		.add_property("status", &status, "Of the pair's contact points: 0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded.");
+		.add_property(
+			"status", &status, "Of the pair's contact points: 0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded, 4 softening.");
 }
 
 YADE_PLUGIN((JointPhys));

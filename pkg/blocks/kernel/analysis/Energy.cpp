@@ -33,8 +33,12 @@ Real jointEnergy(const BlockAssembly& a)
 	for (int i = 0; i < a.joints.count(); ++i) {
 		if (a.state.released[i] || a.joints.kind[i] == 0) continue;
 		const JointParams& joint = a.joints.of(i);
-		for (int p : { 2 * i, 2 * i + 1 })
-			sum += a.joints.segments[i].area * storedEnergy(joint, a.state.sigma[p], a.state.tau[p]);
+		for (int p : { 2 * i, 2 * i + 1 }) {
+			const Real sigma = a.state.sigma[p], tau = a.state.tau[p];
+			const Real held = a.joints.softens(i) ? storedEnergy(joint, a.joints.softeningOf(i), a.state.softened.of(p), sigma, tau)
+							      : storedEnergy(joint, sigma, tau);
+			sum += a.joints.segments[i].area * held;
+		}
 	}
 	return sum + (a.contacts.order.empty() ? 0 : contactEnergy(a));
 }

@@ -130,10 +130,18 @@ namespace {
 	{
 		const JointParams& p = a.joints.of(joint);
 		for (int i : { 2 * joint, 2 * joint + 1 })
-			if (a.state.status[i] == Joint::intact) return Release::never; // until it breaks, which will be noticed
+			if (a.state.status[i] == Joint::intact || a.state.status[i] == Joint::softening)
+				return Release::never; // until it breaks, which will be noticed
+		if (a.joints.softens(joint)) {
+			const Softened& soft = a.state.softened;
+			if (a.joints.softeningOf(joint).cap.strength > 0) return Release::never; // free contacts have no cap
+			for (int i : { 2 * joint, 2 * joint + 1 })
+				if (a.state.status[i] != Joint::unbonded && soft.k[i] < softeningEnd) return Release::later; // some bond is left
+		}
 		for (int i : { 2 * joint, 2 * joint + 1 }) {
 			if (a.state.sigma[i] > 0) return Release::later; // residual tension stays with the point law
-			if (p.tanDilation > 0 && a.state.sigma[i] < 0    // so does a joint that goes on dilating
+			// so does a joint that goes on dilating, and one that rests on ends raised by different amounts, which a free contact would level
+			if (a.state.sigma[i] < 0 && (p.tanDilation > 0 || a.state.uplift[2 * joint] != a.state.uplift[2 * joint + 1])
 			    && std::abs(a.state.slipPlastic[i]) < std::min(p.dilationLimitSlip, dilatesFor * 2 * a.joints.segments[joint].area / a.thickness))
 				return Release::later;
 		}
@@ -141,12 +149,12 @@ namespace {
 	}
 
 	/// Turns a broken joint into a free edge pair, which takes over its slip.
-	void release(BlockAssembly& a, int joint, int contact)
+	void release(BlockAssembly& a, int joint, int contact, bool isNew)
 	{
 		const Segment& g = a.joints.segments[joint];
 		a.releaseJoint(joint); // from here on it carries nothing
 		FreeContact& c = a.state.contacts[contact];
-		if (!(c.joint.kn > 0)) c.joint = a.joints.of(joint);
+		if (isNew || !(c.joint.kn > 0)) c.joint = a.joints.of(joint); // not those of two materials that were never bonded
 		detect(a, c);
 		const auto key = edgesOf(a, g);
 		const auto at
@@ -325,16 +333,20 @@ namespace {
 		size_t                          kept = 0;
 		std::vector<int>                now;
 		std::vector<std::array<int, 2>> blocks;
+		std::vector<char>               isFirst; // whether these two blocks have no contact yet
 		for (int joint : f.waiting)
-			if (releaseOf(a, joint) == Release::now)
-				now.push_back(joint), blocks.push_back(a.joints.segments[joint].block);
-			else
+			if (releaseOf(a, joint) == Release::now) {
+				const auto& two = a.joints.segments[joint].block;
+				isFirst.push_back(contactOf(a, two[0], two[1]) < 0 && (blocks.empty() || blocks.back() != two));
+				now.push_back(joint);
+				blocks.push_back(two);
+			} else
 				f.waiting[kept++] = joint;
 		if (now.empty()) return;
 		f.waiting.resize(kept);
 		makeContacts(a, blocks);
 		for (size_t i = 0; i < now.size(); ++i)
-			release(a, now[i], contactOf(a, blocks[i][0], blocks[i][1]));
+			release(a, now[i], contactOf(a, blocks[i][0], blocks[i][1]), isFirst[i]);
 		f.sleepsUntil.assign(a.state.contacts.size(), 0);
 		a.listSides();
 		++f.version;
