@@ -27,12 +27,15 @@ SofteningParams energies(Real lasting = 0)
 
 CapParams cap() { return { 2e6, 1e6, 5e5, 1e-3, 1e4, 4, 0 }; }
 
+SofteningParams capped()
+{
+	SofteningParams s = energies();
+	s.cap             = cap();
+	return s;
+}
+
 /// A softening joint, a brittle one and one with a cap.
-const std::array<SofteningParams, 3> softenings { energies(0.3), SofteningParams(), [] {
-							 SofteningParamss = energies();
-							 s.cap            = cap();
-							 return s;
-						 }() };
+const std::array<SofteningParams, 3> softenings { energies(0.3), SofteningParams(), capped() };
 
 /// Blocks of which joints soften, or do not, displaced at random; twice, so that some have a history.
 BlockAssembly randomState(Real amount, int kinds, unsigned seed)
@@ -159,7 +162,9 @@ TEST(SofteningStep, PulledApartItTakesItsFractureEnergy)
 		moveSecond(a, h * normal);
 		advanceJoints(a, Softening {}, true);
 		const Real un = a.state.opening[0], sigma = a.state.sigma[0], w = un - sigma / 4e9;
-		if (un > ft / 4e9) EXPECT_NEAR(sigma, ft * leftStrength(ft * w / 120), 1e-9 * ft) << i;
+		if (un > ft / 4e9) {
+			EXPECT_NEAR(sigma, ft * leftStrength(ft * w / 120), 1e-9 * ft) << i;
+		}
 	}
 	EXPECT_EQ(a.state.sigma[0], 0);
 	EXPECT_NEAR(a.state.softened.modeI, 120 * surface(a), 2e-4 * 120 * surface(a));
