@@ -142,6 +142,18 @@ def setJoints(**values):
 			setattr(interaction.phys, name, value)
 
 
+def softenAFifth(model):
+	"""Joints that soften, a fifth of which have less tensile strength than stress, so that they begin to in the next step."""
+	model.setJoints(GfI=1000, GfII=1e4)
+	stress = np.reshape(model.pointSigma, (-1, 2)).min(axis=1)
+	chosen = np.argsort(stress)[-len(stress) // 5:]
+	model.setJoints(chosen[stress[chosen] > 0], tension=0.95 * stress[chosen[stress[chosen] > 0]])
+
+
+def addCap(model):
+	model.setJoints(GfI=1000, GfII=1e4, capStrength=1e9, capFirst=1e9, capResidual=1e9, capPeakClosure=1e-3, capEnergy=1e6, capShear=9)
+
+
 def addGauge(model):
 	nodes = np.arange(model.nodeCount)
 	read = Recorder(opening=Gauge(model, nodes[:40], nodes[-40:]), force=lambda: model.groupForce(model.groups[-1]))
@@ -166,6 +178,10 @@ rows = [
 	Row('small strain instead of large displacement', lambda model: setattr(model, 'smallStrain', True)),
 	Row('dilation', lambda model: setJoints(frictionAngleResidual=radians(4), dilationAngle=radians(4))), # it may not exceed it
 	Row('residual friction', lambda model: setJoints(frictionAngleResidual=radians(30))),
+	Row('joints that soften, none does', lambda model: model.setJoints(GfI=1000, GfII=1e4)),
+	Row('joints that soften, up to a fifth do', softenAFifth),
+	Row('joints that soften, with a cap, none yields', addCap),
+	Row('strengths that scatter', lambda model: model.scatterStrengths(cov=0.01)),
 	Row('gravity (dead loads)', lambda model: model.gravity((0, -9.81))),
 	Row('adaptive damping instead of local', lambda model: setattr(find('BlockIntegrator'), 'damping', 'adaptive')),
 	Row('no damping instead of local', lambda model: setattr(find('BlockIntegrator'), 'damping', 'none')),
@@ -183,6 +199,7 @@ features = { # where their code is
 	'rigid blocks': Feature(r'Rigid(Bodies|Blocks?)\.', r'\b[rR]igid'),
 	'dilation': Feature(lines='[dD]ilation|uplift'),
 	'residual friction': Feature(lines='[rR]esidual'),
+	'joints that soften': Feature(r'Softening\w*\.', r'[sS]often|anyCap|beyondCap'),
 	'small strain': Feature(lines='smallStrain|Strain::small'),
 	'dead loads': Feature(lines=r'\bload\b|loadWork'),
 	'adaptive damping': Feature(lines='adaptive|viscous'),

@@ -58,8 +58,13 @@ Real heldIn(const BlockAssembly& a, int first, int count, const JointBatch& b)
 	for (int i = 0; i < count; ++i) {
 		if (a.state.released[first + i] || a.joints.kind[first + i] == 0) continue;
 		const JointParams& joint = a.joints.of(first + i);
-		for (int k : { 0, 1 })
-			sum += a.joints.columns.area[first + i] * storedEnergy(joint, b.sigma[k][i], b.tau[k][i]);
+		const bool         soft  = a.joints.softens(first + i);
+		for (int k : { 0, 1 }) {
+			const Real sigma = b.sigma[k][i], tau = b.tau[k][i];
+			const Real held = soft ? storedEnergy(joint, a.joints.softeningOf(first + i), a.state.softened.of(2 * (first + i) + k), sigma, tau)
+					       : storedEnergy(joint, sigma, tau);
+			sum += a.joints.columns.area[first + i] * held;
+		}
 	}
 	return sum;
 }
