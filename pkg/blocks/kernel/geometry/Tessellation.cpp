@@ -119,8 +119,9 @@ Cells tessellate(const Polygon& region, const TessellationOptions& options)
 			seeds = centroids(voronoi.diagram, seeds);
 			continue;
 		}
-		cutAroundHoles(voronoi.diagram, walls, s);
-		const Cells cells = mergeShortEdges(voronoi.diagram, walls, std::max(options.mergeFraction, coincident) * s, s);
+		const Real shortest = std::max(options.mergeFraction, coincident) * s;
+		cutAroundHoles(voronoi.diagram, walls, shortest, s);
+		const Cells cells = mergeShortEdges(voronoi.diagram, walls, shortest, s);
 		requireWhole(cells, region);
 		return cells;
 	}
