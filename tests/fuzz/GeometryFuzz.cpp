@@ -360,7 +360,7 @@ Real forcedAspect(const Ring& cell, const Polygon& region)
 struct Tally {
 	std::map<std::string, long> refusals, zonings;
 	std::map<int, long>         aspects; ///< decade of the worst zone of a cell -> cells
-	std::map<int, long>         ours;    ///< the same of slivers that the region does not ask for
+	std::map<int, long>         ours;    ///< the same of slivers that neither the region nor given seeds nor mergeFraction 0 ask for
 	long                        cells = 0, tessellations = 0, regions = 0;
 };
 
@@ -406,16 +406,8 @@ void checkTessellation(const Case& c, Tally& tally)
 		const CellZones zones  = cellZones(ringOf(cells, i), c.zoning);
 		const Real      aspect = checkZones(zones.zones, { ringOf(cells, i), {} }, "cell");
 		++tally.aspects[int(std::floor(std::log10(aspect)))];
-		if (aspect > sliverAspect && aspect > 10 * forcedAspect(ringOf(cells, i), c.region) && c.options.mergeFraction > 0 && c.options.seeds.empty()) {
+		if (aspect > sliverAspect && aspect > 10 * forcedAspect(ringOf(cells, i), c.region) && c.options.mergeFraction > 0 && c.options.seeds.empty())
 			++tally.ours[int(std::floor(std::log10(aspect)))];
-			if (std::getenv("SLIVERS")) {
-				std::cout << "SLIVER " << shown(aspect) << " forced " << shown(forcedAspect(ringOf(cells, i), c.region)) << " size "
-					  << shown(c.options.size) << " merge " << c.options.mergeFraction << " (" << c.kind << "):";
-				for (const Vec2& p : ringOf(cells, i))
-					std::cout << " (" << p.x() << "," << p.y() << ")";
-				std::cout << "\n";
-			}
-		}
 		++tally.zonings[zones.zoning == Zoning::fan ? "fan" : zones.zoning == Zoning::corners ? "corners" : "delaunay"];
 		a.addBlock(zones.zones.points, zones.zones.rings, zones.zones.triangles, 0);
 	}
@@ -540,7 +532,7 @@ int main(int argc, char** argv)
 	for (const auto& [decade, n] : tally.aspects)
 		std::cout << "  worst aspect of a cell in [1e" << decade << ", 1e" << decade + 1 << "): " << n << "\n";
 	for (const auto& [decade, n] : tally.ours)
-		std::cout << "  of these, not asked for by the region: [1e" << decade << ", 1e" << decade + 1 << "): " << n << "\n";
+		std::cout << "  of these, asked for neither by the region nor by its options: [1e" << decade << ", 1e" << decade + 1 << "): " << n << "\n";
 	for (const auto& [text, n] : tally.refusals)
 		std::cout << "  refused " << n << ": " << text << "\n";
 	std::cout << "unexplained " << unexplained << "\n";

@@ -162,7 +162,7 @@ namespace {
 			const Vec2& a = d.position[from];
 			Vec2        b = point, c = d.position[end];
 			if (cross(b - a, c - a) < 0) std::swap(b, c);
-			const auto left   = [&](const Vec2& p, const Vec2& q, const Vec2& r) { return cross(q - p, r - p) >= -tolerance * (q - p).norm(); };
+			const auto left   = [&](const Vec2& u, const Vec2& v, const Vec2& w) { return cross(v - u, w - u) >= -tolerance * (v - u).norm(); };
 			const auto within = [&](int node) {
 				const Vec2& q = d.position[node];
 				return node != from && node != end && left(a, b, q) && left(b, c, q) && left(c, a, q);

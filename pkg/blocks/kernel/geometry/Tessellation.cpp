@@ -17,7 +17,8 @@
 namespace blocks {
 namespace {
 
-	/// A region may be no thinner than this fraction of the cell size: cells there would be as thin as what counts as coincident.
+	/// A region, and what lies between its edges, may be no thinner than this fraction of the cell size: the tolerance with which blocks are bonded.
+	/// Across a slit that is narrower, edges would be taken for a joint.
 	constexpr Real thinnest = 1e-6;
 
 	/// Each seed goes to the centroid of the largest piece of its cell; it stays where it is if that lies outside the piece.
