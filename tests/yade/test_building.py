@@ -144,6 +144,7 @@ def test_aHoleStaysEmpty():
 
 # ---- zonings that do not suit
 
+
 def test_cellsRoundAHole():
 	"""Forty tessellations round a hole that most cells see past a corner only: none is refused, no zone is a sliver."""
 	for seed in range(40):
