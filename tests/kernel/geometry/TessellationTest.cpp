@@ -657,9 +657,12 @@ TEST(Tessellation, cellsAroundHolesAreCut)
 		const Polygon region { rectangle(0, 0, 1, 0.9), holes };
 		auto          o   = sized(0.5, 0);
 		o.seeds           = { { 0.2, 0.5 } };
+		o.mergeFraction   = 0;
 		const Cells cells = tessellate(region, o);
 		expectTiling(region, cells, 0.5, std::to_string(holes.size()) + " holes in one cell");
 		EXPECT_EQ(cells.cells.size(), holes.size() + 1); // each hole adds two cuts and so, by Euler, one cell
+		o.mergeFraction = 0.05;
+		expectTiling(region, tessellate(region, o), 0.5, std::to_string(holes.size()) + " holes in one cell, necks divided");
 		o.seeds.push_back({ 0.9, 0.2 });
 		o.seeds.push_back({ 0.8, 0.85 });
 		expectTiling(region, tessellate(region, o), 0.5, "holes, with neighbours");
