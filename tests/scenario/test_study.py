@@ -38,6 +38,14 @@ def test_tensionCurve():
 	assert m["peak_tensile_stress"] == pytest.approx(0.35 * 0.995) # mean of the last two of 100 samples: half a sample lower
 
 
+def test_snapBackAsAMachineSeesIt():
+	# up to (1, 1), back to (0.5, 0.2), and up again by (1, 0.6), where the machine has waited, to (1.5, 1)
+	x, y = curves.driven([0, 1, 0.5, 1.5], [0, 1, 0.2, 1], samples=1501)
+	assert x[1] - x[0] == pytest.approx(1e-3) and x[-1] == 1.5
+	assert y[:1000] == pytest.approx(x[:1000]) # the way up
+	assert y[1001:] == pytest.approx(0.6 + 0.8 * (x[1001:] - 1)) # the second branch, of slope 0.8
+
+
 def test_oneSampleIsNoPeak():
 	x = np.linspace(0, 1, 401)
 	y = np.minimum(x, 0.5)
