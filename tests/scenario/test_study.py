@@ -337,6 +337,15 @@ def test_reading():
 	assert "Failed, see the table: blocks lucky." in text and "Not all seeds" not in text
 
 
+def test_readingAgainstTheExactPath():
+	"""The solver is the reference and a point of its own; the slow run is neither a recommendation nor how well the reference is known."""
+	solver, slow = rowOf("events", 0.3, 0, knob="solver"), rowOf("80k steps", 0.01, 0.003, knob="slow")
+	lines = tradeoff.reading([row for row in study4 if not row.isReference] + [solver, slow], tradeoff.quantities["tension"])
+	text = "\n".join(lines)
+	assert "path from event to event; a slow run (80k steps) is off by: peak +0.3 % ± 0.15 %" in lines[0]
+	assert "1 %: events (0.3 CPU s, 0 %)" in text and "slow run gives" not in text
+
+
 def test_readingAgainstAReferenceThatMoves():
 	text = "\n".join(tradeoff.reading(study4 + [moving(0.028)], tradeoff.quantities["tension"]))
 	assert "For the peak within 5 %: 5k steps" in text and "2 %: cannot be judged, the reference is known to 2.8 % only." in text

@@ -215,6 +215,22 @@ TEST(EventPath, RefusesWhatNothingHolds)
 	}
 }
 
+TEST(EventPath, RefusesAMechanism)
+{
+	// Two blocks glued on each other, held in one grid point and pushed in another: they turn about the pin as one.
+	BlockAssembly a  = column(2, 0.4, 0.3, 1, 1, stone(), brittle(1e6, 1e6, 0, 0));
+	auto          at = [](Real x, Real y) { return [=](const Vec2& p) { return (p - Vec2(x, y)).norm() < 1e-9; }; };
+	a.addGroup(driven("pin", both(dofs(a, 0, at(0, 0)), dofs(a, 1, at(0, 0))), 0));
+	a.addGroup(pushed("push", dofs(a, 1, at(0.4, 0.6)), 1e3));
+	const LinearModel m = linearise(a, growing(a, 1));
+	try {
+		EventPath path(m);
+		ADD_FAILURE() << "not refused";
+	} catch (const std::runtime_error& e) {
+		EXPECT_STREQ(e.what(), "blocks can move without resistance; hold them: block 0, 1");
+	}
+}
+
 TEST(EventPath, RefusesSofteningJoints)
 {
 	BlockAssembly a   = wall(2, 2, brittle(0.6e6, 1.5e6, 0.9, 0.7), 0, 1e-3, 0, 7);
