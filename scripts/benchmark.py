@@ -12,8 +12,8 @@ NAME-MODE.png (error over CPU seconds, and its reading), NAME-MODE.md (table and
 	mode=calibrate  goes on with the calibration of YADE's models (model=NAME: of this one only) from scripts/calibrated.json, and writes it; a report says
 			which calibrations were made with other code, targets, packings or ties than today's
 
-Errors are against the laboratory and against a slow run of the same specimen, whose own convergence is shown by one twice as fast (references of other
-specimens than the usual are half as slow).
+Errors are against the laboratory and against a reference of the same specimen: in tension and shear the exact peak (solver=events, which is a point of its
+own as well), in compression a slow run, whose own convergence is shown by one twice as fast (references of other specimens than the usual are half as slow).
 retry=true runs again what failed; jobs=1 keeps processes from slowing each other down, which shows in CPU times.
 """
 import json
@@ -59,6 +59,7 @@ middlePeak, middleResidual = peakShearStress(sigmas[1])[0], residualShearStress(
 
 slow = { # steps of the reference; half of them show how far it is converged
 	"quick": {"tension": 80000, "shear": 24000, "compression": 30000}, "full": {"tension": 320000, "shear": 96000, "compression": 120000}}
+exact = ("tension", "shear") # whose references are the peaks from event to event; a residual behind them is that of so many steps
 middle = ("tension", "shear 0.5", "compression") # of three stresses one is enough for slow runs of every specimen
 
 
@@ -129,7 +130,7 @@ class Point(NamedTuple):
 	label: str
 	script: str
 	settings: dict
-	slow: Optional[dict] # settings of the reference, None without
+	slow: Optional[dict] # settings of the reference, exact or slow, None without
 	isReference: bool = False
 
 	@property
@@ -150,7 +151,8 @@ def points(mode, experiment):
 
 def blockPoints(mode, case, lines):
 	experiment, base = case.split()[0], {"vtk": False, **stressOf(case)}
-	reference = lambda specimen: {**base, **specimen, "steps": slow[mode][experiment] // (2 if specimen else 1)}
+	solver = {"solver": "events"} if experiment in exact else {}
+	reference = lambda specimen: {**base, **specimen, **solver, "steps": slow[mode][experiment] // (2 if specimen else 1)}
 	specimens = []
 	for knob, specimen, way in lines:
 		compared = (mode == "full" and case in middle and knob != "one set"
@@ -160,11 +162,15 @@ def blockPoints(mode, case, lines):
 		if compared and specimen not in specimens: specimens.append(specimen)
 	for specimen in specimens:
 		yield Point(
-			case, "blocks", "reference", inWords({"steps": reference(specimen)["steps"], **specimen}), experiment, reference(specimen),
-			reference(specimen), True
+			case, "blocks", "reference", inWords({**solver, **specimen} if solver else {"steps": reference(specimen)["steps"], **specimen}),
+			experiment, reference(specimen), reference(specimen), True
 		)
-	half = {**base, "steps": slow[mode][experiment] // 2}
-	if {} in specimens: yield Point(case, "blocks", "half as slow", inWords({"steps": half["steps"]}), experiment, half, reference({}))
+	if {} not in specimens: return
+	way = {"steps": slow[mode][experiment] // (1 if solver else 2)}
+	yield Point(case, "blocks", "slow" if solver else "half as slow", inWords(way), experiment, {**base, **way}, reference({}))
+	if solver: # behind the peak of shear there are steps, not quite so slow
+		way = {**solver, "steps": slow[mode][experiment] // 4} if experiment == "shear" else solver
+		yield Point(case, "blocks", "solver", inWords(way), experiment, {**base, **way}, reference({}))
 
 
 def yadePoints(mode, case, model, known):
@@ -212,7 +218,7 @@ def inWords(settings):
 	words = {
 		"steps": lambda n: f"{n / 1000:g}k steps", "size": lambda x: f"{1e3 * x:g} mm", "unitSize": lambda x: f"{1e3 * x:g}",
 		"mortarSize": lambda x: f"/ {1e3 * x:g} mm", "radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}",
-		"units": lambda x: f"{x} units", "damping": lambda x: f"{x} damping", "servo": lambda on: "servo"
+		"units": lambda x: f"{x} units", "solver": lambda x: x, "damping": lambda x: f"{x} damping", "servo": lambda on: "servo"
 		if on else "no servo", "jump": lambda on: "jump" if on else "no jump"
 	}
 	return " ".join(words.get(key, lambda x: f"{key} {x}")(value) for key, value in settings.items())

@@ -65,7 +65,9 @@ class Jobs:
 		record = json.loads(path.read_text())
 		if "failed" in record:
 			return record
-		measures = {name: value for name, (value, unit) in curves.measure(job.settings.get("experiment", job.script), *record.pop("curve")).items()}
+		x, y = record.pop("curve")
+		if job.settings.get("solver") == "events": x, y = curves.driven(x, y) # what a machine would have seen
+		measures = {name: value for name, (value, unit) in curves.measure(job.settings.get("experiment", job.script), x, y).items()}
 		lacking = [name for name, value in measures.items() if math.isnan(value)]
 		return {**record, "failed": "the curve has no " + ", no ".join(lacking)} if lacking else {**record, "measures": measures}
 

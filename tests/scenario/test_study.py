@@ -38,6 +38,14 @@ def test_tensionCurve():
 	assert m["peak_tensile_stress"] == pytest.approx(0.35 * 0.995) # mean of the last two of 100 samples: half a sample lower
 
 
+def test_snapBackAsAMachineSeesIt():
+	# up to (1, 1), back to (0.5, 0.2), and up again by (1, 0.6), where the machine has waited, to (1.5, 1)
+	x, y = curves.driven([0, 1, 0.5, 1.5], [0, 1, 0.2, 1], samples=1501)
+	assert x[1] - x[0] == pytest.approx(1e-3) and x[-1] == 1.5
+	assert y[:1000] == pytest.approx(x[:1000]) # the way up
+	assert y[1001:] == pytest.approx(0.6 + 0.8 * (x[1001:] - 1)) # the second branch, of slope 0.8
+
+
 def test_oneSampleIsNoPeak():
 	x = np.linspace(0, 1, 401)
 	y = np.minimum(x, 0.5)
@@ -327,6 +335,15 @@ def test_reading():
 	assert "the slow run gives peak +10 %" in text and "calibrated for this experiment: jcfpm peak +10 % ± 5 %, stiffness +5 % ± 0 % (20 CPU s)" in text
 	assert "against their own slow runs: jcfpm 20k steps 1 % (20 s)" in text
 	assert "Failed, see the table: blocks lucky." in text and "Not all seeds" not in text
+
+
+def test_readingAgainstTheExactPath():
+	"""The solver is the reference and a point of its own; the slow run is neither a recommendation nor how well the reference is known."""
+	solver, slow = rowOf("events", 0.3, 0, knob="solver"), rowOf("80k steps", 0.01, 0.003, knob="slow")
+	lines = tradeoff.reading([row for row in study4 if not row.isReference] + [solver, slow], tradeoff.quantities["tension"])
+	text = "\n".join(lines)
+	assert "path from event to event; a slow run (80k steps) is off by: peak +0.3 % ± 0.15 %" in lines[0]
+	assert "1 %: events (0.3 CPU s, 0 %)" in text and "slow run gives" not in text
 
 
 def test_readingAgainstAReferenceThatMoves():

@@ -28,7 +28,7 @@ const char* const followDoc
 	= "Follows the loading along one group from event to event (failure, slip, stick, opening, closing), the exact quasi-static answer of the brittle "
 	  "model "
 	  "in small displacement: no rate, damping or mass. All other loads act fully and stay; forces that engines put on rigid blocks' bodies are not known. "
-          "It may be called after the first step, which brings the "
+	  "It may be called after the first step, which brings the "
 	  "joints' "
 	  "properties (Mohr-Coulomb), and leaves the model in the state reached, from where time steps go on at the group's full speed (a group's force: stays "
 	  "as reached). "
@@ -52,7 +52,7 @@ const char* const followDoc
 	  "by the largest force at "
 	  "a contact point); looseBlocks, tied by soft springs whose largest force is anchorForce [N]. "
 	  "Errors: RuntimeError for a group without target, blocks that nothing holds (with their indices), joints without properties or softening, blocks "
-          "that touch "
+	  "that touch "
 	  "without a joint; ValueError for "
 	  "values out of range. Nothing is changed then.";
 
