@@ -42,12 +42,12 @@ namespace {
 			for (size_t c = 0; c < cells.size(); ++c)
 				queueEdges(int(c));
 			mergeEdges();
-			for (size_t c = 0; c < cells.size(); ++c) // cells added by divide() have their turn too
-				while (trim(int(c)) || shorten(int(c)) || divide(int(c)) || divideAtEdge(int(c))) { }
-			mergeEdges();
+			divideNecks();
 			for (size_t c = 0; c < cells.size(); ++c)
 				if (!cells[c].empty() && thin(int(c))) flatten(int(c));
 			mergeEdges();
+			// Flattening may leave arms along walls beyond a corner that is not convex.
+			if (std::count(reflex.begin(), reflex.end(), 1) > 0) divideNecks();
 			return result();
 		}
 
@@ -62,6 +62,13 @@ namespace {
 		using Edge = std::tuple<Real, int, int>; // length, lower node, higher node: a total order
 		std::priority_queue<Edge, std::vector<Edge>, std::greater<>> queue;
 		std::map<int, IntRing>                                       changed; ///< the operation under test: new rings by cell
+
+		void divideNecks()
+		{
+			for (size_t c = 0; c < cells.size(); ++c) // cells added by divide() have their turn too
+				while (trim(int(c)) || shorten(int(c)) || divide(int(c)) || divideAtEdge(int(c))) { }
+			mergeEdges();
+		}
 
 		Real length(int a, int b) const { return (d.position[a] - d.position[b]).norm(); }
 
