@@ -14,7 +14,8 @@ NAME-MODE.png (error over CPU seconds, and its reading), NAME-MODE.md (table and
 
 Errors are against the laboratory and against a reference of the same specimen: in tension and shear the exact peak (solver=events, which is a point of its
 own as well), in compression a slow run, whose own convergence is shown by one twice as fast (references of other specimens than the usual are half as slow).
-retry=true runs again what failed; jobs=1 keeps processes from slowing each other down, which shows in CPU times.
+retry=true runs again what failed; jobs=1 keeps processes from slowing each other down, which shows in CPU times. scheduler=HOST:PORT, or a scheduler
+file, has the runs done by a cluster of dask.distributed that is there already.
 """
 import json
 import math
@@ -31,6 +32,7 @@ sys.path.insert(0, str(house / "py"))
 
 import pandas
 from laboratory import calibration, study, tradeoff, tradeoffpicture
+from laboratory.engine import EngineError
 from laboratory.jobs import Job, Jobs, machine, yadeVersion
 from yadeblocks import scenario
 from yadeblocks.experiments import compressiveStrength, expected, peakShearStress, residualShearStress, shearCohesion, shearFriction, youngsModulus
@@ -46,7 +48,8 @@ modelsOf = {
 }
 
 p = scenario.parameters({
-	"mode": "quick", "experiment": "all", "seeds": 5, "jobs": os.cpu_count() or 1, "model": "all", "limit": 1800.0, "retry": False, "out": "out/benchmark"
+	"mode": "quick", "experiment": "all", "seeds": 5, "jobs": os.cpu_count() or 1, "model": "all", "limit": 1800.0, "retry": False, "scheduler": "",
+	"out": "out/benchmark"
 }, {
 	"mode": ("quick", "full", "calibrate"), "experiment": ("all", "tension", "shear", "compression"), "model": ("all", "blocks", *modelsOf["shear"]),
 	"seeds": scenario.atLeastOne, "jobs": scenario.atLeastOne, "limit": scenario.positive
@@ -465,7 +468,7 @@ def interrupt(*_):
 signal.signal(signal.SIGTERM, interrupt)
 signal.signal(signal.SIGINT, interrupt) # also where the shell has it ignored
 plugin = os.environ.get("YADEBLOCKS_PLUGIN", house / "build" / "libyadeblocks.so")
-jobs = Jobs(house, house / p.out, plugin, pluginFree=("spheres", ), limit=p.limit, parallel=p.jobs, retry=p.retry)
+jobs = Jobs(house, house / p.out, plugin, pluginFree=("spheres", ), limit=p.limit, parallel=p.jobs, retry=p.retry, scheduler=p.scheduler)
 everything = {} if p.mode == "calibrate" else {
 	experiment: [point for point in points(p.mode, experiment) if p.model in ("all", point.model)] for experiment in experiments
 }
@@ -475,7 +478,8 @@ if p.mode == "calibrate" and not any(p.model in ("all", *modelsOf[experiment])
 stopped = False
 try:
 	if p.mode == "calibrate":
-		calibrateAll(jobs)
+		with jobs:
+			calibrateAll(jobs)
 		sys.exit()
 	jobs.do([
 		Job(point.script, point.settings, seed) for seed in range(1, p.seeds + 1) for all in everything.values() for point in all if seed in point.seeds
@@ -483,6 +487,8 @@ try:
 except KeyboardInterrupt:
 	print("interrupted: what is complete is kept; the same command continues", file=sys.stderr)
 	stopped = True
+except EngineError as error:
+	sys.exit(f"benchmark: {error}")
 for experiment, all in everything.items():
 	if all: report(jobs, experiment, all) # model= may leave nothing
 sys.exit(130 if stopped else 0)

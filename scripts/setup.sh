@@ -9,7 +9,7 @@ packages="yade libyade python3-yade libeigen3-dev libcgal-dev libboost-dev libbo
 tests=OFF
 if [ "${1:-}" = --tests ]; then
 	tests=ON
-	packages+=" python3-pytest libgtest-dev python3-scipy"
+	packages+=" python3-pytest libgtest-dev python3-scipy python3-distributed python3-optuna python3-openturns"
 	shift
 fi
 scripts/install.sh $packages "$@"

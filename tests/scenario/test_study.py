@@ -19,7 +19,7 @@ from yadeblocks import curves, experiments, packing, provenance
 
 package = Path(curves.__file__).parent
 sys.path.insert(0, str(package.parents[1] / "scripts"))
-from laboratory import calibration, jobs, study, tradeoff, tradeoffpicture
+from laboratory import calibration, engine, jobs, study, tradeoff, tradeoffpicture
 
 # ---- curves
 
@@ -159,8 +159,20 @@ def house(tree, monkeypatch):
 	return tree
 
 
+@pytest.fixture(scope="module")
+def workers():
+	"""Two workers that all tests share."""
+	with engine.Engine(2) as started:
+		yield started
+
+
+@pytest.fixture(autouse=True)
+def shared(workers):
+	started.engine = workers
+
+
 def started(house, **more):
-	return jobs.Jobs(house, house / "out/benchmark", house / "plugin.so", stream=open(os.devnull, "w"), **more)
+	return jobs.Jobs(house, house / "out/benchmark", house / "plugin.so", stream=open(os.devnull, "w"), engine=started.engine, **more)
 
 
 def calls(house):
@@ -441,13 +453,17 @@ def study5(house):
 		shutil.copytree(package.parents[1] / folder, house / folder)
 
 	def benchmark(mode):
-		command = [sys.executable, house / "scripts/benchmark.py", "experiment=tension", "model=jcfpm", "seeds=1", f"mode={mode}"]
+		cluster.start()
+		where = f"scheduler={cluster.cluster.scheduler_address}"
+		command = [sys.executable, house / "scripts/benchmark.py", "experiment=tension", "model=jcfpm", "seeds=1", f"mode={mode}", where]
 		return subprocess.run(
 			command, env={**os.environ, "YADEBLOCKS_PLUGIN": str(house / "plugin.so")}, capture_output=True, text=True, check=True
 		).stdout
 
 	benchmark.file = lambda name: house / name
-	return benchmark
+	cluster = engine.Engine(2) # its workers find the imitation of YADE
+	yield benchmark
+	cluster.close()
 
 
 @pytest.mark.parametrize(
