@@ -26,6 +26,7 @@ from yadeblocks.export import State, writeStates
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
+from yadeblocks.scenario import Key
 from yadeblocks.session import Session
 from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 
@@ -42,13 +43,13 @@ velocity = 0.01e-3 # [m/s]
 common = scenario.commonParameters(sizeMeaning='edge', lloyd=3, steps=30000, alpha=0.2)
 del common['size']
 p = scenario.parameters({
-	**common, 'unitSize': 0.01, 'mortarSize': 0.003, 'residualFriction': 'zero', 'units': 'voronoi', 'width': 0.285, 'stroke': 3.6e-3, 'solver': 'steps',
-	'jump': True, 'servo': False, 'merge': 0.1, 'halfRate': False, 'vtk': True
-}, {
-	'solver': ('steps', 'events'), 'unitSize': scenario.Rule(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick'),
-	'mortarSize': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than a mortar joint'), 'residualFriction': ('zero', 'kept'),
-	'units': ('voronoi', 'plain'), 'width': scenario.positive, 'stroke': scenario.positive,
-	'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')
+	**common, **scenario.usualParameters(units='voronoi', stroke=3.6e-3, jump=True, servo=False, merge=0.1, halfRate=False, vtk=True), 'unitSize': Key(
+		0.01, 'size of the Voronoi cells of bricks, or of the zones of plain ones', 'm',
+		(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick')
+	), 'mortarSize': Key(
+		0.003, 'size of the Voronoi cells of mortar', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than a mortar joint')
+	), 'residualFriction': Key('zero', 'friction of broken joints: none, or as before', rule=('zero', 'kept')),
+	'width': Key(0.285, 'width of the prism', 'm', scenario.positive)
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'compression: solver=events has no rate: servo and halfRate must be false')
 if p.residualFriction == 'zero':

@@ -27,6 +27,7 @@ from yadeblocks.export import State, writeStates
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
+from yadeblocks.scenario import Key
 from yadeblocks.session import Session
 from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 
@@ -35,25 +36,26 @@ from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 length, brickHeight, thickness, mortarHeight = 0.2, 0.05, 0.05, 0.015 # [m]
 brick = dict(young=16.7e9, poisson=0.2, density=1900) # Table 4
 mortar = dict(young=2.974e9, poisson=0.2, density=3250)
-jointDefaults = {
-	'kn': 400e9, 'ks': 200e9, 'cohesion': 3e6, 'tension': 1.5e6, 'friction': 45.0, 'residualFriction': 36.0
-} # Table 5, all joints; angles in degrees
 brickJoint = dict(
 	kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6
 ) # with units=voronoi; Table 9, since none is given for these bricks
 velocity = 0.2e-3 # [m/s]
 pressSteps = 2000
 
+strength = lambda default, what: Key(default, what + ' of the joints', 'Pa', scenario.notNegative)
+angle = lambda default, what: Key(default, what + ' of the joints', 'degrees', (lambda angle: 0 <= angle < 90, 'must lie in [0, 90) degrees'))
 p = scenario.parameters({
-	**scenario.commonParameters(size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2), 'sigma': 0.5e6, 'stroke': 1e-3, 'approach': 0.2,
-	'solver': 'steps', 'afterPeak': True, 'jump': True, 'servo': False, 'units': 'plain', 'brickZone': 8e-3, 'merge': 0.1, **jointDefaults, 'halfRate': False, 'vtk': True
-}, {
-	'solver': ('steps', 'events'), 'sigma': scenario.notNegative, 'stroke': scenario.positive, 'approach': scenario.Rule(lambda f: 0 < f <= 1,
-												'must lie in (0, 1]'), 'units': ('plain', 'voronoi'),
-	'brickZone': scenario.positive, 'size': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer'),
-	'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)'), 'kn': scenario.positive, 'ks': scenario.positive, 'cohesion': scenario.notNegative,
-	'tension': scenario.notNegative, **dict.fromkeys(('friction', 'residualFriction'),
-								scenario.Rule(lambda angle: 0 <= angle < 90, 'must lie in [0, 90) degrees'))
+	**scenario.commonParameters(sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2),
+	**scenario.usualParameters(
+		sigma=0.5e6, stroke=1e-3, approach=0.2, jump=True, servo=False, units='plain', brickZone=8e-3, merge=0.1, halfRate=False, vtk=True
+	),
+	'size': Key(3.5e-3, 'size of the Voronoi cells', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer')),
+	'kn': Key(400e9, 'normal stiffness of the joints', 'Pa/m', scenario.positive),
+	'ks': Key(200e9, 'shear stiffness of the joints', 'Pa/m', scenario.positive),
+	'cohesion': strength(3e6, 'cohesion'),
+	'tension': strength(1.5e6, 'tensile strength'),
+	'friction': angle(45.0, 'friction angle'),
+	'residualFriction': angle(36.0, 'friction angle after failure') # Table 5, all joints
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'shear: solver=events has no rate: servo and halfRate must be false')
 scenario.require(p.afterPeak or p.solver == 'events', 'shear: afterPeak=false needs solver=events, got solver=steps')
@@ -92,8 +94,8 @@ def shear(stage, seed, steps):
 	floor, cracks = 1e-3 * max(p.sigma, joint['tension']) * area, Cracks(model)
 	slip, uplift = Gauge(model, below, above, 'x'), Gauge(model, below, above, 'y')
 	record = Recorder(
-		displacement=slip, stress=lambda: model.groupForce('shear') / area, uplift=uplift,
-		broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=floor)
+		displacement=slip, stress=lambda: model.groupForce('shear') / area, uplift=uplift, broken=cracks.look,
+		unbalanced=lambda: model.unbalancedRatio(floor=floor)
 	)
 	if not stage.model: press(model, dt, floor)
 	approach = None if p.servo else loading.Approach(model, 'shear', p.approach) # one of them sets the speed
@@ -108,8 +110,8 @@ def shear(stage, seed, steps):
 				path = loading.follow(model, 'shear', stage.label, gauges=[slip, uplift], peak=True, drop=0.5, displacement=p.stroke)
 				up = slice(path['force'].argmax() + 1)
 				record.take(
-					displacement=path['gauges'][0][up], stress=path['force'][up] / area, uplift=path['gauges'][1][up], broken=path['cracked'][up],
-					unbalanced=path['residual']
+					displacement=path['gauges'][0][up], stress=path['force'][up] / area, uplift=path['gauges'][1][up],
+					broken=path['cracked'][up], unbalanced=path['residual']
 				)
 				cracks.began(path['crackPoint'])
 				if not p.afterPeak: return model, record, cracks

@@ -32,6 +32,7 @@ from yadeblocks.export import State, writeStates
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
+from yadeblocks.scenario import Key
 from yadeblocks.session import Session
 from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 
@@ -54,11 +55,11 @@ cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [M
 stroke, velocity = 0.03e-3, 0.02e-3 # [m], [m/s]
 
 p = scenario.parameters({
-	**scenario.commonParameters(size=0.0, sizeMeaning='edge', lloyd=0, alpha=0.8, steps=40000), 'case': 'TT2', 'units': 'plain', 'brickZone': 8e-3,
-	'merge': 0.2, 'solver': 'steps', 'jump': True, 'servo': False, 'halfRate': False, 'vtk': True
-}, {
-	'solver': ('steps', 'events'), 'case': tuple(cases), 'size': scenario.Rule(lambda s: 0 <= s < mortarHeight, 'must be positive and smaller than the mortar layer (0: of the case)'),
-	'units': ('plain', 'voronoi'), 'brickZone': scenario.positive, 'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')
+	**scenario.commonParameters(lloyd=0, alpha=0.8, steps=40000), **scenario.usualParameters(
+		units='plain', brickZone=8e-3, merge=0.2, jump=True, servo=False, halfRate=False, vtk=True
+	), 'size': Key(0.0, 'size of the Voronoi cells; 0: of the case', 'm', (lambda s: 0 <= s < mortarHeight, 'must be smaller than the mortar layer')),
+	'case': Key('TT2', 'properties of the joints, see above',
+			rule=tuple(cases)), 'solver': Key('steps', 'time steps, or from failure to failure', rule=('steps', 'events'))
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'tension: solver=events has no rate: servo and halfRate must be false')
 mortarJoint, unitJoint, caseSize, expectedPeak, source = cases[p.case]
