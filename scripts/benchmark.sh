@@ -4,9 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-log="$(mktemp)"
-trap 'rm -f "$log"' EXIT
-scripts/setup.sh python3-scipy python3-distributed > "$log" 2>&1 || { cat "$log" >&2; exit 1; }
+scripts/setup.sh --brief python3-scipy python3-distributed
 
 [ -v HOME ] || export HOME=~ # YADE does not start without
 # Debian's own Python, for which setup.sh installs numpy, scipy, pandas and matplotlib

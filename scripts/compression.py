@@ -29,6 +29,7 @@ from yadeblocks.export import State, writeStates
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
+from yadeblocks.scenario import Key
 from yadeblocks.session import Session
 from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
@@ -46,17 +47,17 @@ velocity = 0.01e-3 # [m/s]
 common = scenario.commonParameters(sizeMeaning='edge', lloyd=3, steps=30000, alpha=0.2)
 del common['size']
 p = scenario.parameters({
-	**common, 'unitSize': 0.01, 'mortarSize': 0.003, 'residualFriction': 'zero', 'joints': 'paper', **dict.fromkeys(sets['paper'], -1.0),
-	**softening.scatterKeys, 'units': 'voronoi', 'cells': 'voronoi', 'edgeSegments': 1, 'width': 0.285, 'stroke': 3.6e-3, 'solver': 'steps', 'jump': True,
-	'servo': False, 'merge': 0.1, 'halfRate': False, 'vtk': True
-}, {
-	'solver': ('steps', 'events'), 'unitSize': scenario.Rule(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick'),
-	'mortarSize': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than a mortar joint'), 'residualFriction': ('zero', 'kept'),
-	'joints': tuple(sets), **softening.scatterRules, 'strengths': scenario.Rule(lambda f: f == -1 or f > 0, 'must be positive (-1: that of the joints)'),
-	**dict.fromkeys(('GfI', 'GfII'), scenario.Rule(lambda g: g == -1 or g >= 0, 'must not be negative (-1: that of the joints)')), 'units': (
-		'voronoi', 'plain'
-	), 'cells': ('voronoi', 'triangles'), 'edgeSegments': scenario.atLeastOne, 'width': scenario.positive, 'stroke': scenario.positive,
-	'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')
+	**common, **scenario.usualParameters(
+		units='voronoi', cells='voronoi', edgeSegments=1, stroke=3.6e-3, solver='steps', jump=True, servo=False, merge=0.1, halfRate=False, vtk=True
+	), 'unitSize': Key(
+		0.01, 'size of the Voronoi cells of bricks, or of the zones of plain ones', 'm',
+		(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick')
+	), 'mortarSize': Key(
+		0.003, 'size of the Voronoi cells of mortar', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than a mortar joint')
+	), 'residualFriction': Key('zero', 'friction of broken joints: none, or as before',
+					rule=('zero', 'kept')), 'width': Key(0.285, 'width of the prism', 'm', scenario.positive),
+	'joints': Key('paper', 'brittle joints of Tables 8 and 9, or joints that soften',
+			rule=tuple(sets)), **softening.jointKeys(*sets['paper']), **softening.scatterKeys
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'compression: solver=events has no rate: servo and halfRate must be false')
 if p.residualFriction == 'zero':

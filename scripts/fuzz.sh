@@ -17,9 +17,7 @@ for number in "$count" "$seed"; do
 	[[ "$number" =~ ^[0-9]+$ ]] || { echo "count and seed must be whole numbers, got '$number'" >&2; exit 2; }
 done
 
-log="$(mktemp)"
-trap 'rm -f "$log"' EXIT
-scripts/setup.sh > "$log" 2>&1 || { cat "$log" >&2; exit 1; }
+scripts/setup.sh --brief
 case "$part" in
 	geometry) build/tests/geometry_fuzz "$count" "$seed" ;;
 	*) echo "part must be geometry, got '$part'" >&2; exit 2 ;;

@@ -22,6 +22,7 @@ from yadeblocks import curves, loading, running, scenario
 from yadeblocks.experiments import expected
 from yadeblocks.progress import Progress
 from yadeblocks.recording import Recorder, runner
+from yadeblocks.scenario import Key
 from yadeblocks.session import Session
 from yadeblocks.specimen import rectangle
 
@@ -39,14 +40,25 @@ experiments = {
 }
 brickHeight, mortarHeight, thickness, unitSize = 0.05, 0.015, 0.05, 8e-3
 
-p = scenario.parameters({
-	'seed': 1, 'seeds': 1, 'threads': 1, 'tag': '', 'experiment': 'tension', 'steps': 0, 'alpha': 0.4, 'sigma': 0.5e6, 'pressSteps': 2000, 'approach': 0.25,
-	'safety': 0.8, 'kn': 0.0, 'ks': 0.0, 'unitStiffness': 4.0, 'tension': 0.0, 'cohesion': 0.0, 'friction': 0.0
-}, {
-	'experiment': tuple(experiments), 'steps': scenario.notNegative, 'sigma': scenario.notNegative, 'pressSteps': scenario.atLeastOne,
-	'approach': scenario.Rule(lambda f: 0 < f <= 1, 'must lie in (0, 1]'), 'safety': scenario.Rule(lambda f: 0 < f < 1, 'must lie in (0, 1)'),
-	'unitStiffness': scenario.positive, **dict.fromkeys(('kn', 'ks', 'tension', 'cohesion', 'friction'), scenario.notNegative)
-})
+p = scenario.parameters(
+	{
+		**scenario.usualParameters(seed=1, seeds=1, threads=1, tag='', alpha=0.4, sigma=0.5e6, pressSteps=2000, approach=0.25), 'experiment': Key(
+			'tension', 'which experiment', rule=tuple(experiments)
+		), 'steps': Key(0, 'time steps for the whole stroke; 0: of the experiment', rule=scenario.notNegative),
+		'safety': Key(0.8, 'time step as a fraction of the stable one',
+				rule=(lambda f: 0 < f < 1, 'must lie in (0, 1)'
+					)), 'unitStiffness': Key(4.0, 'stiffness of bonds within bricks by that in mortar',
+								rule=scenario.positive), **{
+									key: Key(
+										0.0, f'{meaning} of the bonds; 0: of the experiment', unit, scenario.notNegative
+									) for key, meaning, unit in (('kn', 'normal stiffness', 'Pa/m'), (
+														'ks', 'shear stiffness (0: half of kn)', 'Pa/m'
+													), ('tension', 'tensile strength', 'Pa'), (
+														'cohesion', 'cohesion', 'Pa'
+													), ('friction', 'friction angle', 'degrees'))
+								}
+	}
+)
 specimen = experiments[p.experiment]
 for key in ('steps', 'kn', 'tension', 'cohesion', 'friction'): # 0: of the experiment
 	if not getattr(p, key): setattr(p, key, specimen[key])

@@ -1,16 +1,22 @@
 #!/bin/bash
 # Runs a scenario: scripts/run.sh NAME [key=value ...]. Its results are in out/NAME/.
-# threads=N is also YADE's number of threads.
+# scripts/run.sh alone lists the scenarios, scripts/run.sh NAME help the keys of one. threads=N is also YADE's number of threads.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+about() { # needs Python alone, no YADE and no plugin
+	scripts/install.sh python3-numpy >&2
+	PYTHONPATH="$PWD/py${PYTHONPATH:+:$PYTHONPATH}" /usr/bin/python3 -m yadeblocks.help "$@"
+}
+usage() {
+	echo "usage: scripts/run.sh NAME [key=value ...], or scripts/run.sh NAME help for its keys"
+	about scripts
+}
+
 name="${1:-}"
-if [ -z "$name" ] || [ ! -f "scripts/$name.py" ]; then
-	{
-		echo "usage: scripts/run.sh NAME [key=value ...]"
-		[ -z "$name" ] || echo "there is no scenario '$name'"
-		echo "scenarios:" $(cd scripts && ls *.py | grep -v '^benchmark\|^price' | sed 's/\.py$//')
-	} >&2
+case "$name" in ""|help|--help|-h) usage; exit ;; esac
+if [ ! -f "scripts/$name.py" ]; then
+	{ echo "there is no scenario '$name'"; usage; } >&2
 	exit 2
 fi
 shift
@@ -18,6 +24,7 @@ shift
 threads=1
 for argument in "$@"; do
 	case "$argument" in
+		help|--help) about "scripts/$name.py"; exit ;;
 		threads=*) threads="${argument#threads=}" ;;
 		*=*) ;;
 		*) echo "'$argument' is not of the form key=value" >&2; exit 2 ;;
@@ -25,14 +32,10 @@ for argument in "$@"; do
 done
 [[ "$threads" =~ ^[1-9][0-9]*$ ]] || { echo "threads must be a whole number > 0, got '$threads'" >&2; exit 2; }
 
-more=""
-[ "$name" != spheres ] || more="python3-scipy"
-log="$(mktemp)"
-trap 'rm -f "$log"' EXIT
-scripts/setup.sh $more > "$log" 2>&1 || { cat "$log" >&2; exit 1; }
+more="$(sed -n 's/^# needs: //p' "scripts/$name.py")" # Debian packages that only this scenario wants
+scripts/setup.sh --brief $more
 
 # passive: threads that wait must not eat the time of those that work
 export OMP_WAIT_POLICY=passive PYTHONPATH="$PWD/py${PYTHONPATH:+:$PYTHONPATH}"
 [ -v HOME ] || export HOME=~ # YADE does not start without
-rm -f "$log"
 exec yade -n -x -j "$threads" "scripts/$name.py" "$@" # signals reach YADE itself

@@ -33,6 +33,7 @@ from yadeblocks.export import State, writeStates
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
+from yadeblocks.scenario import Key
 from yadeblocks.session import Session
 from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
@@ -47,7 +48,7 @@ sets = { # all joints alike; angles in degrees
 	'measured': dict(
 		friction=degrees(softening.measured['frictionAngle']), residualFriction=residualFriction, dilation=0.,
 		**{name: softening.measured[name]
-			for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII')}
+	for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII')}
 	),
 	'calibrated':
 	dict(kn=400e9, ks=200e9, cohesion=1.25e6, tension=0.5e6, friction=50., residualFriction=residualFriction, dilation=0., GfI=20., GfII=150.),
@@ -59,19 +60,12 @@ velocity = 0.2e-3 # [m/s]
 pressSteps = 2000
 
 p = scenario.parameters({
-	**scenario.commonParameters(size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2), 'sigma': 0.5e6, 'stroke': 1e-3, 'approach': 0.2,
-	'solver': 'steps', 'afterPeak': True, 'jump': True, 'servo': False, 'units': 'plain', 'cells': 'voronoi', 'edgeSegments': 1, 'brickZone': 8e-3,
-	'merge': 0.1, 'joints': 'paper', **dict.fromkeys(sets['paper'], -1.0), **softening.scatterKeys, 'halfRate': False, 'vtk': True
-}, {
-	'solver': ('steps', 'events'), 'sigma': scenario.notNegative, 'stroke': scenario.positive,
-	'approach': scenario.Rule(lambda f: 0 < f <= 1, 'must lie in (0, 1]'), 'units': ('plain', 'voronoi'), 'cells': ('voronoi', 'triangles'),
-	'edgeSegments': scenario.atLeastOne, 'brickZone': scenario.positive,
-	'size': scenario.Rule(lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer'),
-	'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)'), 'joints': tuple(sets), **softening.scatterRules,
-	**dict.fromkeys(('kn', 'ks'), scenario.Rule(lambda k: k == -1 or k > 0, 'must be positive (-1: that of the joints)')),
-	**dict.fromkeys(('cohesion', 'tension', 'GfI', 'GfII'), scenario.Rule(lambda s: s == -1 or s >= 0, 'must not be negative (-1: that of the joints)')),
-	**dict.fromkeys(('friction', 'residualFriction', 'dilation'),
-			scenario.Rule(lambda angle: angle == -1 or 0 <= angle < 90, 'must lie in [0, 90) degrees (-1: that of the joints)'))
+	**scenario.commonParameters(sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2), **scenario.usualParameters(
+		sigma=0.5e6, stroke=1e-3, approach=0.2, solver='steps', jump=True, servo=False, units='plain', cells='voronoi', edgeSegments=1, brickZone=8e-3, merge=0.1, halfRate=False, vtk=True
+	), 'afterPeak': Key(True, 'go on behind the peak, to the residual stress'),
+	'size': Key(3.5e-3, 'size of the Voronoi cells', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer')),
+	'joints': Key('paper', 'brittle joints of Table 5, or joints that soften',
+			rule=tuple(sets)), **softening.jointKeys(*sets['paper']), **softening.scatterKeys
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'shear: solver=events has no rate: servo and halfRate must be false')
 scenario.require(p.afterPeak or p.solver == 'events', 'shear: afterPeak=false needs solver=events, got solver=steps')

@@ -1,4 +1,5 @@
 # yade-blocks, GPL-2.0-or-later
+# needs: python3-scipy
 """The three experiments of tension.py, shear.py and compression.py with YADE's own bonded spheres, for comparison.
 
 The same specimens, loading and quantities; a monolayer of spheres (z blocked), each brick and mortar layer a packing of its own.
@@ -30,6 +31,7 @@ from yadeblocks import curves, loading, packing, running, scenario
 from yadeblocks.experiments import expected
 from yadeblocks.progress import Progress
 from yadeblocks.recording import Recorder, runner
+from yadeblocks.scenario import Key
 from yadeblocks.session import Session
 
 # ---- specimens (SI), as in the scenarios of the same name
@@ -40,21 +42,25 @@ experiments = { # bricks, width, brick height, mortar height, stroke; elastic mo
 	'compression': dict(bricks=5, width=0.285, brick=0.05, mortar=0.01, stroke=3.6e-3, densities=(2000, 2000), radius=2.5e-3, coarser=1.5, steps=10000),
 }
 models = ('jcfpm', 'jcfpmSmooth', 'cohfrict', 'cpm', 'lourenco')
-micro = { # what calibration moves; young: of the bond, poisson: tangential by normal stiffness, angles in degrees
-	'unitYoung': scenario.positive, 'mortarYoung': scenario.positive, 'poisson': scenario.positive, 'unitStrength': scenario.positive,
-	'tension': scenario.positive, 'cohesion': scenario.positive, 'friction': scenario.notNegative, 'residualFriction': scenario.notNegative,
-	'jointTension': scenario.positive, 'jointCohesion': scenario.positive, 'jointFriction': scenario.notNegative, 'jointStiffness': scenario.positive,
-	'ductility': scenario.positive}
-
-unknown = {key: 0.0 for key in micro}
+micro = { # what calibration moves; 0: of the calibration
+	'unitYoung': ('modulus of the bonds in bricks', 'Pa'), 'mortarYoung': ('modulus of the bonds in mortar', 'Pa'),
+	'poisson': ('tangential by normal stiffness', ''), 'unitStrength': ('strength of the bonds in bricks', 'Pa'),
+	'tension': ('tensile strength of the bonds in mortar', 'Pa'), 'cohesion': ('cohesion of the bonds in mortar', 'Pa'),
+	'friction': ('friction angle', 'degrees'), 'residualFriction': ('friction angle of broken bonds', 'degrees'),
+	'jointTension': ('tensile strength on the bed planes', 'Pa'), 'jointCohesion': ('cohesion on the bed planes', 'Pa'),
+	'jointFriction': ('friction angle on the bed planes', 'degrees'), 'jointStiffness': ('stiffness on the bed planes', 'Pa/m'),
+	'ductility': ('strain at full damage by that at the peak', '')}
 p = scenario.parameters({
-	'seed': 1, 'seeds': 1, 'threads': 1, 'tag': '', 'experiment': 'tension', 'model': 'jcfpm', 'radius': 0.0, 'unitRadius': 0.0, 'steps': 0, 'alpha': 0.4,
-	'sigma': 0.5e6, 'pressSteps': 2000, 'approach': 0.25, 'reach': 1.3, 'safety': 0.8, **unknown
-}, {
-	'experiment': tuple(experiments), 'model': models, 'radius': scenario.notNegative, 'unitRadius': scenario.notNegative, 'steps': scenario.notNegative,
-	'sigma': scenario.notNegative, 'pressSteps': scenario.atLeastOne, 'approach': scenario.Rule(lambda f: 0 < f <= 1, 'must lie in (0, 1]'),
-	'reach': scenario.Rule(lambda f: 1 <= f <= 2, 'must lie in [1, 2]'), 'safety': scenario.Rule(lambda f: 0 < f < 1, 'must lie in (0, 1)'),
-	**{key: scenario.notNegative for key in micro}
+	**scenario.usualParameters(seed=1, seeds=1, threads=1, tag='', alpha=0.4, sigma=0.5e6, pressSteps=2000, approach=0.25), 'experiment': Key(
+		'tension', 'which experiment', rule=tuple(experiments)
+	), 'model': Key('jcfpm', 'model of the bonds, see above',
+			rule=models), 'radius': Key(0.0, 'radius of the spheres in mortar; 0: of the experiment', 'm', scenario.notNegative),
+	'unitRadius': Key(0.0, 'radius of the spheres in bricks; 0: of the experiment', 'm',
+				scenario.notNegative), 'steps': Key(0, 'time steps for the whole stroke; 0: of the experiment', rule=scenario.notNegative),
+	'reach': Key(1.3, 'distance within which spheres are bonded, by the sum of their radii', rule=(lambda f: 1 <= f <= 2, 'must lie in [1, 2]')),
+	'safety': Key(0.8, 'time step as a fraction of the stable one', rule=(lambda f: 0 < f < 1, 'must lie in (0, 1)')), **{
+		key: Key(0.0, meaning + '; 0: calibrated', unit, scenario.notNegative) for key, (meaning, unit) in micro.items()
+	}
 })
 specimen = experiments[p.experiment]
 p.radius, p.steps = p.radius or specimen['radius'], p.steps or specimen['steps']

@@ -14,9 +14,7 @@ for argument in "$@"; do
 	esac
 done
 
-log="$(mktemp)"
-trap 'rm -f "$log"' EXIT
-scripts/setup.sh python3-pytest > "$log" 2>&1 || { cat "$log" >&2; exit 1; }
+scripts/setup.sh --brief python3-pytest
 
 export OMP_NUM_THREADS="$threads" OMP_WAIT_POLICY=passive PYTHONPATH="$PWD/py${PYTHONPATH:+:$PYTHONPATH}"
 [ -v HOME ] || export HOME=~ # YADE does not start without

@@ -40,6 +40,7 @@ from yadeblocks.export import State, writeStates
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
+from yadeblocks.scenario import Key
 from yadeblocks.session import Session
 from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
@@ -62,20 +63,14 @@ cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [M
 softeningSets = {'measured': softening.measured, 'calibrated': softening.measured} # all joints alike
 stroke, velocity, faster = 0.03e-3, 0.02e-3, 10 # [m], [m/s]; so many times as fast behind the peak, where joints soften
 
-p = scenario.parameters(
-	{
-		**scenario.commonParameters(size=0.0, sizeMeaning='edge', lloyd=0, alpha=0.8, steps=40000), 'case': 'TT2', 'joints': 'paper', 'units': 'plain',
-		'cells': 'voronoi', 'edgeSegments': 1, 'brickZone': 8e-3, 'merge': 0.2, 'solver': 'steps', 'jump': True, 'servo': False,
-		**dict.fromkeys(('tension', 'cohesion', 'GfI', 'GfII'), -1.0), **softening.scatterKeys, 'halfRate': False, 'vtk': True
-	}, {
-		'solver': ('steps', 'events'), 'joints': ('paper', *softeningSets), **softening.scatterRules,
-		**dict.fromkeys(('tension', 'cohesion', 'GfI', 'GfII'),
-				scenario.Rule(lambda v: v == -1 or v >= 0, 'must not be negative (-1: that of the joints)')), 'case': tuple(cases),
-		'size': scenario.Rule(lambda s: 0 <= s < mortarHeight, 'must be positive and smaller than the mortar layer (0: of the case)'),
-		'units': ('plain', 'voronoi'), 'cells': ('voronoi', 'triangles'), 'edgeSegments': scenario.atLeastOne, 'brickZone': scenario.positive,
-		'merge': scenario.Rule(lambda f: 0 <= f < 1, 'must lie in [0, 1)')
-	}
-)
+p = scenario.parameters({
+	**scenario.commonParameters(lloyd=0, alpha=0.8, steps=40000), **scenario.usualParameters(
+		units='plain', cells='voronoi', edgeSegments=1, brickZone=8e-3, merge=0.2, solver='steps', jump=True, servo=False, halfRate=False, vtk=True
+	), 'size': Key(0.0, 'size of the Voronoi cells; 0: of the case', 'm', (lambda s: 0 <= s < mortarHeight, 'must be smaller than the mortar layer')),
+	'case': Key('TT2', 'properties of brittle joints, see above',
+			rule=tuple(cases)), 'joints': Key('paper', 'brittle joints of the case, or joints that soften', rule=('paper', *softeningSets)),
+	**softening.jointKeys('tension', 'cohesion', 'GfI', 'GfII'), **softening.scatterKeys
+})
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'tension: solver=events has no rate: servo and halfRate must be false')
 scenario.require(p.solver == 'steps' or p.joints == 'paper', 'tension: solver=events knows brittle joints only, got joints=' + p.joints)
 mortarJoint, unitJoint, caseSize, expectedPeak, source = cases[p.case]

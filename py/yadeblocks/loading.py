@@ -50,6 +50,20 @@ def follow(model, group, label='', displacement=math.inf, **options):
 	return path
 
 
+def comesToRest(model, within, ratio=1e-6, floor=0.0, period=500, maxSteps=100000):
+	"""Whether what moves comes to rest, True, or some grid point goes further than `within` [m] from its reference position or is still moving after maxSteps
+	(counted from O.iter = 0), False. Rest is an unbalanced force ratio below `ratio`; floor, period: as in `settle`."""
+	if not within > 0: raise ValueError('comesToRest: within must be positive, got %r' % within)
+	if not period >= 1: raise ValueError('comesToRest: period must be at least 1, got %r' % period)
+	from yade.wrapper import Omega
+	O = Omega()
+	while O.iter < maxSteps:
+		O.run(period, True)
+		if not abs(model.displacement).max() <= within: return False
+		if model.unbalancedRatio(floor=floor) < ratio: return True
+	return False
+
+
 class Approach:
 	"""Slow up to the peak, where the rate counts, and fast after it: the speed of a driven group is `slow` x its velocity until the
 	stress has fallen below `drop` x its peak after something has broken, then grows by 1.1 from look to look up to the whole velocity.

@@ -1,12 +1,13 @@
 # yade-blocks, GPL-2.0-or-later
 """What a scenario is told: `scripts/run.sh NAME key=value ...`, or a line of a yade-batch table. All values in SI units.
 
-	p = scenario.parameters(
-	        {**scenario.commonParameters(size=2e-3, seeds=5), "case": "TT1", "stroke": 0.03e-3},
-	        {"case": ("TT1", "TT2"), "stroke": scenario.positive})
+	p = scenario.parameters({
+		**scenario.commonParameters(size=2e-3, seeds=5), **scenario.usualParameters(jump=True),
+		"case": Key("TT1", "which tables the joints follow", rule=("TT1", "TT2")),
+		"stroke": Key(0.03e-3, "path of the top", "m", scenario.positive)})
 	p.case, p.size, p.seedList, p.folder     # "TT1", 0.002, [1, 2, 3, 4, 5], Path("out/tension")
 
-Every value is checked here, once. What is refused leaves one line on stderr and exit code 2.
+Every value is checked here, once. What is refused leaves one line on stderr and exit code 2. `help` shows what the Keys say.
 """
 import difflib
 import json
@@ -30,38 +31,69 @@ positive = Rule(lambda x: 0 < x < math.inf, "must be positive")
 notNegative = Rule(lambda x: 0 <= x < math.inf, "must not be negative")
 atLeastOne = Rule(lambda n: n >= 1, "must be at least 1")
 
-_Common = namedtuple("_Common", "default rule meaning")
+#: A key of a scenario: its default, what it means, its unit ("" for numbers and words) and its rule: a Rule, a pair (test, text), a tuple of choices, or
+#: None where every value of the default's type will do.
+Key = namedtuple("Key", "default meaning unit rule", defaults=("", None))
 
 _common = {
-	"seed": _Common(1, notNegative, "number of the first tessellation"),
-	"seeds": _Common(1, atLeastOne, "how many tessellations; results are their means"),
-	"threads": _Common(1, atLeastOne, "OpenMP threads"),
-	"tag": _Common("", Rule(lambda t: re.fullmatch(r"[\w.,=+-]*", t), "must consist of letters, digits and . , = + - _"), "makes the folder out/NAME-TAG"),
-	"size": _Common(2e-3, positive, "size of the Voronoi cells [m]"),
-	"sizeMeaning": _Common("edge", choice("edge", "sqrtArea"), "size is the mean edge length, or the root of the mean area"),
-	"lloyd": _Common(2, notNegative, "Lloyd iterations: how regular the cells are"),
-	"damping": _Common("local", choice("local", "adaptive", "none"), "damping of the motion"),
-	"alpha": _Common(0.3, Rule(lambda a: 0 <= a < 1, "must lie in [0, 1)"), "coefficient of local damping"),
-	"safety": _Common(
-		0.7, Rule(lambda s: 0 < s <= 0.95, "must lie in (0, 0.95]"),
-		"time step as a fraction of the stable one; with local damping at most 0.95/sqrt(1+alpha)"
+	"seed": Key(1, "number of the first tessellation", rule=notNegative),
+	"seeds": Key(1, "how many tessellations; results are their means", rule=atLeastOne),
+	"threads": Key(1, "OpenMP threads", rule=atLeastOne),
+	"tag": Key("", "makes the folder out/NAME-TAG", rule=(lambda t: re.fullmatch(r"[\w.,=+-]*", t), "must consist of letters, digits and . , = + - _")),
+	"size": Key(2e-3, "size of the Voronoi cells", "m", positive),
+	"sizeMeaning": Key("edge", "size is the mean edge length, or the root of the mean area", rule=("edge", "sqrtArea")),
+	"lloyd": Key(2, "Lloyd iterations: how regular the cells are", rule=notNegative),
+	"damping": Key("local", "damping of the motion", rule=("local", "adaptive", "none")),
+	"alpha": Key(0.3, "coefficient of local damping", rule=(lambda a: 0 <= a < 1, "must lie in [0, 1)")),
+	"safety": Key(
+		0.7, "time step as a fraction of the stable one; with local damping at most 0.95/sqrt(1+alpha)",
+		rule=(lambda s: 0 < s <= 0.95, "must lie in (0, 0.95]")
 	),
-	"steps": _Common(40000, Rule(lambda n: n >= 1000, "must be at least 1000"), "time steps for the whole loading"),
-	"checkpoint": _Common(0.0, notNegative, "seconds between two checkpoints of a run that may be killed, of which resume=true goes on; 0: none"),
-	"resume": _Common(False, Rule(lambda r: True, "must be true or false"), "go on where a run with the same keys was killed or interrupted"),
-	"plane": _Common("strain", choice("strain", "stress"), "plane strain or plane stress"),
+	"steps": Key(40000, "time steps for the whole loading", rule=(lambda n: n >= 1000, "must be at least 1000")),
+	"checkpoint": Key(0.0, "time between two checkpoints of a run that may be killed, of which resume=true goes on; 0: none", "s", notNegative),
+	"resume": Key(False, "go on where a run with the same keys was killed or interrupted"),
+	"plane": Key("strain", "plane strain or plane stress", rule=("strain", "stress")),
+}
+
+_usual = {
+	"units": Key("plain", "bricks are one elastic block each, or made of Voronoi blocks that could crack", rule=("plain", "voronoi")),
+	"cells": Key("voronoi", "Voronoi cells, or triangles of the same size", rule=("voronoi", "triangles")),
+	"edgeSegments": Key(1, "joints along an edge between two blocks", rule=atLeastOne),
+	"solver": Key("steps", "time steps, or the exact path from failure to failure", rule=("steps", "events")),
+	"brickZone": Key(8e-3, "size of the zones in plain bricks, mean edge of the blocks in others", "m", positive),
+	"merge": Key(0.1, "edges of Voronoi cells below this fraction of the size are merged", rule=(lambda f: 0 <= f < 1, "must lie in [0, 1)")),
+	"jump": Key(True, "leap over the elastic part of the loading"),
+	"servo": Key(False, "the unbalanced force sets the speed of loading"),
+	"halfRate": Key(False, "repeat each run at half the loading rate and report the change"),
+	"vtk": Key(True, "write files for ParaView"),
+	"pressSteps": Key(2000, "time steps in which the precompression comes on", rule=atLeastOne),
+	"approach": Key(0.2, "speed up to the peak by that after it", rule=(lambda f: 0 < f <= 1, "must lie in (0, 1]")),
+	"sigma": Key(0.5e6, "precompression", "Pa", notNegative),
+	"stroke": Key(1e-3, "path of the loaded edge at which the run ends", "m", positive),
 }
 
 
 def commonParameters(**defaults):
-	"""The keys that every scenario has, with their defaults: `seed seeds threads tag size sizeMeaning lloyd damping alpha
-	safety steps plane`. Keyword arguments give a scenario's own defaults. Their rules are known to `parameters`.
+	"""The keys that every scenario has: `seed seeds threads tag size sizeMeaning lloyd damping alpha safety steps checkpoint resume plane`, each a Key.
+	Keyword arguments give a scenario's own defaults.
 
 	Raises TypeError for a name that is not common to all scenarios."""
-	strangers = set(defaults) - set(_common)
+	return {**_common, **_chosen(_common, "common to all scenarios", defaults)}
+
+
+def usualParameters(**defaults):
+	"""Keys that more than one scenario has, with these defaults: `units cells edgeSegments solver brickZone merge jump servo halfRate vtk pressSteps approach sigma stroke`
+	and all the common ones.
+
+	Raises TypeError for a name that is none of them."""
+	return _chosen({**_common, **_usual}, "that several scenarios have", defaults)
+
+
+def _chosen(known, what, defaults):
+	strangers = set(defaults) - set(known)
 	if strangers:
-		raise TypeError(f"not a parameter common to all scenarios: {', '.join(sorted(strangers))}")
-	return {**{key: common.default for key, common in _common.items()}, **defaults}
+		raise TypeError(f"not a parameter {what}: {', '.join(sorted(strangers))}")
+	return {key: known[key]._replace(default=default) for key, default in defaults.items()}
 
 
 class ParameterError(ValueError):
@@ -93,8 +125,9 @@ class Parameters:
 def parse(words, defaults, allowed=None, scenario="scenario"):
 	"""Values for `defaults` from words "key=value" -> Parameters.
 
-	A value takes the type of its default (bool, int, float or str; 4e4 is a whole number too). `allowed` maps a key to a
-	Rule, a pair (test, text) or a list of choices; the common keys bring their own. Raises ParameterError."""
+	defaults: key -> Key, or a bare default. A value takes the type of its default (bool, int, float or str; 4e4 is a whole number too). `allowed` maps a
+	key to a rule in place of its own, see Key. Raises ParameterError."""
+	keys = _keys(defaults, allowed)
 	texts = {}
 	for word in words:
 		key, equals, text = word.partition("=")
@@ -106,12 +139,12 @@ def parse(words, defaults, allowed=None, scenario="scenario"):
 			raise ParameterError(f"{scenario} has no parameter {key}{_closest(key, defaults)}; known: {' '.join(defaults)}")
 		texts[key] = text
 
-	values = dict(defaults)
+	values = {key: kind.default for key, kind in keys.items()}
 	for key, text in texts.items():
-		values[key] = _typed(f"{scenario}.{key}", text, type(defaults[key]))
-	for key, rule in _rules(defaults, allowed).items():
-		if not rule.test(values[key]):
-			raise ParameterError(f"{scenario}.{key} {rule.text}, got {values[key]!r}")
+		values[key] = _typed(f"{scenario}.{key}", text, type(values[key]))
+	for key, kind in keys.items():
+		if kind.rule and not kind.rule.test(values[key]):
+			raise ParameterError(f"{scenario}.{key} {kind.rule.text}, got {values[key]!r}")
 	if "alpha" in texts and values.get("damping", "local") != "local":
 		raise ParameterError(f"{scenario}.alpha must only be given with damping=local, got damping={values['damping']}")
 	if "safety" in values and values.get("damping") == "local" and values["safety"] > 0.95 / math.sqrt(1 + values["alpha"]):
@@ -125,7 +158,7 @@ def parse(words, defaults, allowed=None, scenario="scenario"):
 def parameters(defaults, allowed=None, scenario=None):
 	"""What the user asked for: from the command line, below that from the table line in YADE_BATCH, else `defaults`.
 
-	defaults: key -> value, usually {**commonParameters(), "own": 1.0}; allowed: see `parse`; scenario: the name, by default
+	defaults: key -> Key, usually {**commonParameters(), "own": Key(1.0, "what it is", "m")}; allowed: see `parse`; scenario: the name, by default
 	that of the script. `help` as an argument shows all keys and leaves. Input that is refused ends the program with code 2."""
 	scenario = scenario or Path(sys.argv[0]).stem # yade hands over the script's own argv
 	words = sys.argv[1:]
@@ -178,12 +211,13 @@ def jointsFrom(file, scenario):
 
 
 def describe(defaults, allowed=None, scenario="scenario"):
-	"""One line for every key: its default, its meaning if it is a common one, its rule."""
-	rules = _rules(defaults, allowed)
-	lines = [f"scripts/run.sh {scenario} [key=value ...]   (SI units)"]
-	for key, value in defaults.items():
-		notes = ([_common[key].meaning] if key in _common else []) + ([rules[key].text] if key in rules else [])
-		lines.append(f"  {key + '=' + str(value):<22} {'; '.join(notes)}".rstrip())
+	"""One line for every key: its default, unit, meaning and rule."""
+	lines = [f"scripts/run.sh {scenario} [key=value ...]"]
+	for key, kind in _keys(defaults, allowed).items():
+		default = str(kind.default).lower() if isinstance(kind.default,
+									bool) else f"{kind.default:g}" if isinstance(kind.default, float) else kind.default
+		notes = "; ".join(filter(None, (kind.meaning, kind.rule and kind.rule.text)))
+		lines.append(f"  {f'{key}={default}' + f' [{kind.unit}]' * bool(kind.unit):<28} {notes}".rstrip())
 	return "\n".join(lines)
 
 
@@ -194,13 +228,21 @@ def waitIfBatch():
 		utils.waitIfBatch()
 
 
-def _rules(defaults, allowed):
-	rules = {key: common.rule for key, common in _common.items() if key in defaults}
-	for key, rule in (allowed or {}).items():
-		if key not in defaults:
-			raise TypeError(f"a rule for {key}, which is no parameter of this scenario")
-		rules[key] = rule if isinstance(rule, Rule) else Rule(*rule) if callable(rule[0]) else choice(*rule)
-	return rules
+def _keys(defaults, allowed):
+	"""key -> Key with a Rule (or None), whatever short form was given."""
+	for key in allowed or {}:
+		if key not in defaults: raise TypeError(f"a rule for {key}, which is no parameter of this scenario")
+	bare = {**_common, **_usual}
+	keys = {}
+	for key, given in defaults.items():
+		kind = given if isinstance(given, Key) else bare[key]._replace(default=given) if key in bare else Key(given, "")
+		keys[key] = kind._replace(rule=_asRule((allowed or {}).get(key, kind.rule)))
+	return keys
+
+
+def _asRule(rule):
+	if rule is None or isinstance(rule, Rule): return rule
+	return Rule(*rule) if callable(rule[0]) else choice(*rule)
 
 
 def _typed(name, text, kind):

@@ -1,0 +1,67 @@
+# yade-blocks, GPL-2.0-or-later
+"""What scenarios there are and what they can be told; works before anything is built.
+
+	python3 -m yadeblocks.help scripts                # one line for each scenario
+	python3 -m yadeblocks.help scripts/shear.py       # what it says of itself, and its keys
+"""
+import ast
+import runpy
+import sys
+import types
+from pathlib import Path
+
+
+def scenarios(folder):
+	"""Name and first line of the docstring of every scenario in a folder, in alphabetical order. A script that has a command of its own beside it
+	(benchmark.sh) is none."""
+	folder = Path(folder)
+	return {path.stem: _words(path).partition("\n")[0] for path in sorted(folder.glob("*.py")) if not path.with_suffix(".sh").exists()}
+
+
+def listing(folder):
+	"""The scenarios as a table of text."""
+	known = scenarios(folder)
+	width = max(map(len, known), default=0)
+	return "\n".join(f"  {name:<{width}}  {line}".rstrip() for name, line in known.items())
+
+
+def explain(path):
+	"""Prints what a scenario says of itself and its keys with defaults, units and meanings.
+
+	The script is run up to its scenario.parameters(...), which prints the keys and ends it; an empty module stands in for YADE, which is not needed
+	until then."""
+	path = Path(path)
+	print(_words(path) or path.stem, end="\n\n")
+	if not _hasParameters(path): return print("It has no keys.")
+	before = sys.argv, sys.modules.get("yade")
+	sys.argv, sys.modules["yade"] = [str(path), "help"], _Nothing("yade")
+	try:
+		runpy.run_path(str(path), run_name="__main__")
+	except SystemExit as end:
+		if end.code: raise
+	finally:
+		sys.argv = before[0]
+		if before[1] is None: del sys.modules["yade"]
+		else: sys.modules["yade"] = before[1]
+
+
+class _Nothing(types.ModuleType):
+	"""A module from which anything can be imported, and `*` brings nothing."""
+	def __getattr__(self, name):
+		if name.startswith("__"): raise AttributeError(name)
+		return _Nothing(name)
+
+
+def _words(path):
+	return ast.get_docstring(ast.parse(path.read_text())) or ""
+
+
+def _hasParameters(path):
+	called = [node.func for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Call)]
+	return any(getattr(function, "attr", getattr(function, "id", "")) == "parameters" for function in called)
+
+
+if __name__ == "__main__":
+	for place in map(Path, sys.argv[1:]):
+		if place.is_dir(): print(listing(place))
+		else: explain(place)

@@ -1,0 +1,135 @@
+# yade-blocks, GPL-2.0-or-later
+"""A region cut into blocks by sets of joints and by single cracks, as rock and rubble are.
+
+	sets = [JointSet('bedding', dip=20, spacing=0.5), JointSet('cross', dip=-70, spacing=0.8, persistence=0.7, scatter=0.2, seed=3)]
+	rock = cut(rectangle(0, 0, 10, 5), sets, cracks={'fault': [(0, 1), (10, 4)]})
+	placed = rock.addTo(model, 'rock', zoneSize=0.4)
+
+Joints are named as their set or crack (see layout.Placed.joints). Needs shapely (Debian's python3-shapely)."""
+from collections import namedtuple
+
+import numpy as np
+
+from .layout import Layout
+
+#: Parallel joints. dip: angle of the traces with the x axis, counter-clockwise [degrees]; spacing: normal distance [m]; persistence: share of a trace that is
+#: joint, the rest is rock; length: mean length of the joints in a trace that is not persistent [m], 0: three spacings; scatter: standard deviation of spacing
+#: and lengths by their means (a lognormal law) and of the dip by a radian; seed: of the random numbers; through: a point on the first trace [m].
+JointSet = namedtuple('JointSet', 'name dip spacing persistence length scatter seed through', defaults=(1.0, 0.0, 0.0, 1, (0.0, 0.0)))
+
+
+def cut(outline, sets=(), cracks={}, holes=(), least=0.0):
+	"""Cuts a polygon [m] -> layout.Layout with blocks of the kind 'block'.
+
+	sets: JointSets; cracks: name -> points of a polyline [m]; holes: polygons that are left out; least: blocks with less area [m2] join the neighbour with
+	which they have the longest side in common.
+
+	A joint that ends within a block does not part it and is left out, as in UDEC. notes: `traces`, name -> list of (2, 2) arrays [m]; `lostLength`: of what was
+	left out [m]; `merged`: how many blocks joined a neighbour. Errors: ValueError for impossible sets and polygons."""
+	shapely = _shapely()
+	region = shapely.geometry.Polygon(outline, holes)
+	if not region.is_valid: raise ValueError('cut.outline must be a simple polygon that holds its holes: ' + shapely.validation.explain_validity(region))
+	traces = {}
+	for joints in sets:
+		if joints.name in traces: raise ValueError(f'cut: the name {joints.name!r} must be given once')
+		traces[joints.name] = _tracesOf(joints, region.bounds)
+	for name, points in cracks.items():
+		if name in traces: raise ValueError(f'cut: the name {name!r} must be given once')
+		points = np.asarray(points, float)
+		traces[name] = list(np.stack([points[:-1], points[1:]], axis=1))
+	lines = [shapely.geometry.LineString(trace) for of in traces.values() for trace in of]
+	inside = [part for line in lines for part in _lines(line.intersection(region))]
+	pieces = _polygons(shapely, region, inside)
+	pieces, merged = _merge(shapely, pieces, least)
+	between = sum(piece.length for piece in pieces) - region.length # every side within is counted twice
+	lost = sum(line.length for line in inside) - between / 2
+	return Layout([np.array(piece.exterior.coords) for piece in pieces], ['block'] * len(pieces), np.arange(len(pieces)), _namer(traces),
+			[[np.array(ring.coords)[:-1] for ring in piece.interiors] for piece in pieces], traces=traces, lostLength=max(0.0, lost), merged=merged)
+
+
+def _shapely():
+	try:
+		import shapely.geometry
+		import shapely.ops
+		import shapely.validation
+	except ImportError as error:
+		raise ImportError('yadeblocks.jointsets needs shapely: scripts/install.sh python3-shapely') from error
+	return shapely
+
+
+def _tracesOf(joints, bounds):
+	"""Segments of a set that cover a box."""
+	for name, value, fulfilled, rule in (('spacing', joints.spacing, joints.spacing > 0,
+						'be positive'), ('persistence', joints.persistence, 0 < joints.persistence <= 1,
+									'lie in (0, 1]'), ('length', joints.length, joints.length >= 0, 'not be negative'),
+						('scatter', joints.scatter, 0 <= joints.scatter < 1, 'lie in [0, 1)')):
+		if not fulfilled: raise ValueError(f'JointSet.{name} must {rule}, got {value!r} in {joints.name!r}')
+	random = np.random.default_rng(joints.seed)
+	vary = lambda mean: mean if not joints.scatter else mean * random.lognormal(-np.log1p(joints.scatter**2) / 2, np.log1p(joints.scatter**2)**0.5)
+	x0, y0, x1, y1 = bounds
+	corners, through = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]), np.asarray(joints.through, float)
+	dip = np.radians(joints.dip)
+	along, across = np.array([np.cos(dip), np.sin(dip)]), np.array([-np.sin(dip), np.cos(dip)])
+	far, reach = (corners - through) @ across, np.hypot(x1 - x0, y1 - y0)
+	middle = (corners.mean(axis=0) - through) @ along
+	places = [0.0]
+	while places[-1] < far.max():
+		places.append(places[-1] + vary(joints.spacing))
+	while places[0] > far.min():
+		places.insert(0, places[0] - vary(joints.spacing))
+	joint = joints.length or 3 * joints.spacing
+	traces = []
+	for place in places:
+		turn = joints.scatter * random.standard_normal() if joints.scatter else 0
+		direction = np.cos(turn) * along + np.sin(turn) * across
+		foot, s = through + place * across + middle * along, -reach
+		if joints.persistence == 1:
+			traces.append(foot + np.outer((-reach, reach), direction))
+			continue
+		s -= random.uniform(0, joint / joints.persistence)
+		while s < reach:
+			length = vary(joint)
+			traces.append(foot + np.outer((s, s + length), direction))
+			s += length + vary(joint * (1 / joints.persistence - 1))
+	return traces
+
+
+def _lines(shape):
+	"""The line strings in what an intersection gave."""
+	return [part for part in getattr(shape, 'geoms', [shape]) if part.geom_type == 'LineString' and part.length > 0]
+
+
+def _polygons(shapely, region, lines):
+	"""The pieces of a region between lines, in order of their centroids from below, then from the left."""
+	network = shapely.ops.unary_union([*lines, region.boundary])
+	pieces = [piece for piece in shapely.ops.polygonize(network) if region.contains(piece.representative_point())]
+	return sorted(pieces, key=lambda piece: (round(piece.centroid.y, 9), piece.centroid.x))
+
+
+def _merge(shapely, pieces, least):
+	"""Joins small pieces to neighbours; how many."""
+	merged = 0
+	while True:
+		small = min(pieces, key=lambda piece: piece.area)
+		if small.area >= least or len(pieces) == 1: return pieces, merged
+		side = lambda piece: small.intersection(piece).length if piece is not small else -1
+		neighbour = max(pieces, key=side)
+		if not side(neighbour) > 0: raise ValueError(f'cut.least: a block of {small.area:g} m2 has no neighbour to join')
+		pieces = [shapely.ops.unary_union([small, piece]) if piece is neighbour else piece for piece in pieces if piece is not small]
+		merged += 1
+
+
+def _namer(traces):
+	names = np.array([name for name, of in traces.items() for _ in of] or ['none'], dtype=object)
+	all_ = np.array([trace for of in traces.values() for trace in of]).reshape(-1, 2, 2)
+
+	def nameOf(normals, ends, samePiece):
+		a, b = all_[:, 0], all_[:, 1]
+		direction = (b - a) / np.hypot(*(b - a).T)[:, None]
+		across = np.column_stack([-direction[:, 1], direction[:, 0]])
+		offset = abs(np.einsum('sekd,kd->sek', ends[:, :, None] - a, across)).max(axis=1) # of the farther end from the line of each trace
+		s = np.einsum('sekd,kd->sek', ends[:, :, None] - a, direction).mean(axis=1) # of the middle along it
+		beyond = np.maximum(0, np.maximum(-s, s - np.hypot(*(b - a).T)))
+		return names[(offset + beyond).argmin(axis=1)]
+
+	return nameOf

@@ -1,0 +1,103 @@
+# yade-blocks, GPL-2.0-or-later
+"""What the commands say before anything runs: scenarios, keys, and how far the first build is. Nothing is built or installed: cmake, ninja and dpkg are small
+stand-ins."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+house = Path(__file__).resolve().parents[2]
+
+
+def called(*command, **more):
+	environment = {**os.environ, "PYTHONPATH": str(house / "py"), **more.pop("env", {})}
+	return subprocess.run([*map(str, command)], capture_output=True, text=True, env=environment, **more)
+
+
+def test_everyKeyHasAMeaning():
+	"""All scenarios in one Python, without YADE."""
+	scripts = [path for path in sorted((house / "scripts").glob("*.py")) if not path.with_suffix(".sh").exists()]
+	run = called(sys.executable, "-m", "yadeblocks.help", *scripts, env={"YADEBLOCKS_PLUGIN": "/there/is/none"})
+	assert run.returncode == 0, run.stderr
+	lines = re.findall(r"^  (\w+)=(\S*)( \[.*?\])?(.*)$", run.stdout, re.M)
+	assert len(lines) > 80 and not [line for line in lines if len(line[3].split(";")[0].strip()) < 8]
+	units = dict((key, unit.strip()) for key, _, unit, _ in lines)
+	assert units["sigma"] == "[Pa]" and units["size"] == "[m]" and units["kn"] == "[Pa/m]" and units["seed"] == ""
+	assert re.search(r"^  sigma=500000 \[Pa\] +precompression; must not be negative$", run.stdout, re.M)
+	assert run.stdout.count("key=value ...]\n  ") == len(scripts) # each showed its keys
+
+
+def test_runAloneListsScenarios():
+	run = called(house / "scripts/run.sh")
+	assert run.returncode == 0 and not run.stderr
+	assert re.search(r"^  shear +Shear of a masonry couplet under precompression", run.stdout, re.M) and "  benchmark" not in run.stdout
+	run = called(house / "scripts/run.sh", "wood")
+	assert run.returncode == 2 and run.stderr.startswith("there is no scenario 'wood'\n") and "  shear  " in run.stderr
+
+
+def test_helpOfAScenarioAnywhereInTheLine():
+	run = called(house / "scripts/run.sh", "shear", "sigma=1e5", "help")
+	assert run.returncode == 0 and run.stdout.startswith("Shear of a masonry couplet") and "  steps=32000  " in run.stdout
+
+
+def test_scriptsWithoutKeys(tmp_path):
+	(tmp_path / "mine.py").write_text('"""A pile."""\nO.run(1)\n')
+	(tmp_path / "bare.py").write_text("")
+	(tmp_path / "report.py").write_text('"""A report."""')
+	(tmp_path / "report.sh").write_text("")
+	run = called(sys.executable, "-m", "yadeblocks.help", tmp_path, tmp_path / "mine.py")
+	assert run.stdout == "  bare\n  mine  A pile.\nA pile.\n\nIt has no keys.\n"
+
+
+# ---- the first build
+
+
+@pytest.fixture
+def fresh(tmp_path):
+	"""setup.sh in an empty house, with a cmake that makes ten steps."""
+	(tmp_path / "scripts").mkdir(), (tmp_path / "bin").mkdir()
+	for name in ("setup.sh", "install.sh"):
+		shutil.copy(house / "scripts" / name, tmp_path / "scripts")
+	steps = "for i in 1 2 3 4 5 6 7 8 9 10; do echo \"[$i/10] Building $i\"; done"
+	for name, text in {
+		"dpkg-query": 'case "$*" in *absent*) ;; *) printf installed ;; esac', "ninja": "test -f built && echo 'ninja: no work to do.'; true",
+		"cmake": f'case "$1" in -S) touch build/build.ninja; echo -- Configuring ;; --build) test ! -f fail || {{ echo "error: no such type"; exit 1; }}; '
+		f'touch built; {steps} ;; esac', "apt-get": 'echo "apt-get $*" >> apt'
+	}.items():
+		(tmp_path / "bin" / name).write_text("#!/bin/sh\n" + text + "\n")
+		(tmp_path / "bin" / name).chmod(0o755)
+	return lambda *words: called(tmp_path / "scripts/setup.sh", *words, env={"PATH": f"{tmp_path / 'bin'}:{os.environ['PATH']}"}, cwd=tmp_path)
+
+
+def test_firstBuildSaysWhatItDoes(fresh, tmp_path):
+	run = fresh("--brief")
+	assert run.returncode == 0 and run.stdout == ""
+	assert run.stderr.splitlines() == [
+		"yade-blocks: first build: looking for compiler and libraries",
+		"yade-blocks: building the plugin in build/ (the first time takes some minutes)",
+		*(f"yade-blocks: {done} of 10 steps done" for done in (2, 4, 6, 8, 10))
+	]
+	again = fresh("--brief")
+	assert (again.returncode, again.stdout, again.stderr) == (0, "", "")
+	assert "[10/10] Building 10" in fresh().stdout # in full
+
+
+def test_buildThatFailsShowsWhy(fresh, tmp_path):
+	(tmp_path / "fail").touch()
+	run = fresh("--brief")
+	assert run.returncode == 1 and run.stderr.endswith("error: no such type\n")
+
+
+def test_onlyMissingPackagesAreInstalled(fresh, tmp_path):
+	assert fresh("--brief", "present").returncode == 0 and not (tmp_path / "apt").exists()
+	run = fresh("--brief", "present", "absent1", "absent2")
+	assert run.stderr.splitlines()[0] == "yade-blocks: installing 2 Debian packages: absent1 absent2"
+	if os.getuid() == 0: assert (tmp_path / "apt").read_text().splitlines()[-1].endswith(" absent1 absent2")
+
+
+def test_unknownOptionOfSetup(fresh):
+	assert fresh("--breif").returncode == 2

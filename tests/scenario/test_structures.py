@@ -1,0 +1,75 @@
+# yade-blocks, GPL-2.0-or-later
+"""Structures as scenarios against limits and solutions in closed form, with coarse settings: each in a second or two of CPU time."""
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from yadeblocks.bisection import bisect
+
+house = Path(__file__).resolve().parents[2]
+needsYade = pytest.mark.skipif(not shutil.which("yade"), reason="needs YADE")
+
+
+def measured(folder, name, *words):
+	"""Runs a scenario; quantity -> (measured, expected), and the folder it left."""
+	environment = {**os.environ, "PYTHONPATH": str(house / "py")}
+	run = subprocess.run(["yade", "-n", "-x", "-j1", house / f"scripts/{name}.py", *words], cwd=folder, env=environment, capture_output=True, text=True)
+	assert run.returncode == 0, run.stdout + run.stderr
+	left = folder / "out" / name
+	result = json.loads((left / "result.json").read_text())
+	assert result["complete"] and (left / "curve.csv").exists() and (left / "cracks.png").stat().st_size > 10000
+	return {entry["name"]: (entry["measured"], entry["expected"]) for entry in result["quantities"]}
+
+
+@needsYade
+def test_drywall(tmp_path):
+	"""Below the limit of the linear programme, which no wall can exceed, by less than 1 % and half of the last interval."""
+	found = measured(tmp_path, "drywall", "precision=0.02")
+	assert found["limit_multiplier"][1] == 0.64286
+	assert found["last_that_held"][0] < 0.64286 < 1.01 * found["first_that_did_not"][0]
+	assert found["first_that_did_not"][0] <= found["last_that_held"][0] / (1 - 0.02)
+
+
+@needsYade
+def test_drywallWithoutDilationIsWeaker(tmp_path):
+	"""0.64 is the best of the published answers; the sliding of any course alone would need 0.65."""
+	found = measured(tmp_path, "drywall", "dilation=false", "precision=0.02", "most=20000")
+	assert 0.98 * 0.640 / 1.02 < found["last_that_held"][0] <= 0.640 * 1.005
+
+
+@needsYade
+def test_arch(tmp_path):
+	"""Milankovitch's 0.1075, in an interval of 2 %."""
+	found = measured(tmp_path, "arch", "precision=0.02", "most=30000")
+	assert found["thickest_that_fell"][0] < 0.1075 * 1.005 and 0.1075 * 0.995 < found["thinnest_that_held"][0]
+
+
+@needsYade
+def test_rocking(tmp_path):
+	"""The recorder interpolates between every twentieth step; the contact gives way by weight / (kn area), 1e-6 of the width."""
+	found = measured(tmp_path, "rocking", "tilt=0.8")
+	for value, expected in found.values():
+		if expected: assert value == pytest.approx(expected, rel=5e-3)
+	assert found["quarter_period_of_the_pendulum"][0] == pytest.approx(found["quarter_period_of_the_pendulum"][1], rel=1e-3)
+
+
+@needsYade
+def test_disc(tmp_path):
+	"""Zones of constant strain: an error of the order of (zone / radius)^2 = 0.4 % and of the few zones in the middle."""
+	found = measured(tmp_path, "disc", "zone=0.003")
+	assert found["centre_stress"][0] == pytest.approx(found["centre_stress"][1], rel=0.02)
+	assert found["centre_stress_along"][0] == pytest.approx(found["centre_stress_along"][1], rel=0.02)
+
+
+def test_bisection():
+	low, high = bisect(lambda x: x < 0.3, 0, 1, 1e-3)
+	assert low < 0.3 <= high and high - low <= 1e-3 * high
+	for holds, words in ((lambda x: False, "0 does not hold already"), (lambda x: True, "1 still holds")):
+		with pytest.raises(RuntimeError, match=words):
+			bisect(holds, 0, 1, 1e-3)
+	with pytest.raises(ValueError, match="low must be below high"):
+		bisect(lambda x: True, 1, 0, 1e-3)
