@@ -10,7 +10,8 @@ A target is quantity:value:tolerance[:weight], the tolerance in the quantity's u
 
 Bounds are key:low:high[:lin], varied in proportion unless lin is said; a key scenario.key is for that scenario only. The misfit is
 chi² = sum of weight ((mean - target) / tolerance)², the mean being that over `seeds` tessellations, the same ones in every trial. Trials: first scattered
-evenly, then those that surfaces fitted to the quantities promise the least misfit, and those of optuna's sampler (TPE), in turn.
+evenly, then those that surfaces fitted to the quantities promise the least misfit, and those of optuna's sampler (TPE), in turn; last, two beside the best
+one in each parameter, for its slopes.
 Tessellations scatter, so the verdict is that of `heldOut` further seeds, with the interval of their mean: reached, missed, or undecided where
 the interval holds the edge of the tolerance. Profiles show how much worse the best fit gets when one parameter is held elsewhere: a parameter is determined if
 that costs more than 1 at both ends; what it trades with is in the correlations. Results: joints.json, which scenarios take as joints=FILE, study.json,
@@ -28,6 +29,8 @@ from yadeblocks import scenario
 from . import surface, studypicture
 from .command import StudyError, bounds, demandResults, good, place, plain, quantitiesOf, reasons, withJoints, writeWhole
 from .statistics import summary
+
+nearby = 0.08 #: Of the bounds' width: so far beside the best trial slopes are measured.
 
 keys = {"targets": "", "bounds": "", "trials": 40, "heldOut": 5, "samplerSeed": 1, "seeds": 3, "enough": 0.25}
 rules = {
@@ -55,9 +58,11 @@ def study(command):
 		if min(trial.worst for trial in tried) <= p.enough: break
 	fine = [trial for trial in tried if trial.misfit < math.inf]
 	if not fine: raise StudyError("study: no trial gave all quantities: " + "; ".join(why for trial in tried for why in trial.why))
+	pairs = points.around(min(fine, key=lambda trial: trial.misfit), range(p.seed, p.seed + p.seeds))
+	fine += [trial for pair in pairs for trial in pair if trial.misfit < math.inf]
 	best = min(fine, key=lambda trial: trial.misfit)
 	held = points.measure([best.unit], range(p.seed + p.seeds, p.seed + p.seeds + p.heldOut))[0]
-	report(command, edges, experiments, fine, best, held, len(tried), points)
+	report(command, edges, experiments, fine, best, held, len(tried), points, pairs)
 
 
 class Target:
@@ -129,6 +134,17 @@ class _Points:
 				place_[label] = records
 		return found
 
+	def around(self, best, seeds):
+		"""Trials below and above the best one in each parameter, from which slopes are taken."""
+		units = []
+		for i in range(len(self.edges)):
+			for side in (-nearby, nearby):
+				unit = list(best.unit)
+				unit[i] = min(1.0, max(0.0, unit[i] + side))
+				units.append(unit)
+		trials = [_Trial(unit, records, self.experiments) for unit, records in zip(units, self.measure(units, seeds))]
+		return list(zip(trials[::2], trials[1::2]))
+
 	def check(self, trials):
 		"""That the scenarios run at all, and measure what is asked for."""
 		for label, each in self.experiments.items():
@@ -188,11 +204,11 @@ class _Proposals:
 			else: self.study.tell(asked, state=optuna.trial.TrialState.FAIL)
 
 
-def report(command, edges, experiments, fine, best, held, tried, points):
+def report(command, edges, experiments, fine, best, held, tried, points, pairs):
 	p, parameters = command.p, place(edges, best.unit)
 	fitted = surface.fit(fine) if len(fine) > len(edges) + 1 else None
 	profiles = fitted.profiles(edges) if fitted else {}
-	correlations = fitted.correlations(list(edges)) if fitted else {}
+	correlations = fitted.correlations(list(edges), pairs) if fitted and all(trial.misfit < math.inf for pair in pairs for trial in pair) else {}
 	rows = {}
 	for label, each in experiments.items():
 		for name, target in each.targets.items():
@@ -256,7 +272,10 @@ def markdown(command, edges, parameters, rows, profiles, correlations, best, tri
 	for key, row in rows.items():
 		mean = f"{row['mean']:.4g} ± {row['error']:.2g}" if row["mean"] is not None else ""
 		lines.append(f"| {key} | {row['target']:.4g} | {row['tolerance']:.3g} | {row['fitted']:.4g} | {mean} | {row['verdict']} |")
-	lines += ["", f"- {tried} trials, {p.seeds} seeds each, {p.heldOut} held out; misfit {best.misfit:.3g}; sampler seed {p.samplerSeed}."]
+	lines += [
+		"",
+		f"- {tried} trials and {2 * len(edges)} beside the best, {p.seeds} seeds each, {p.heldOut} held out; misfit {best.misfit:.3g}; sampler seed {p.samplerSeed}."
+	]
 	for (a, b), value in correlations.items():
 		if abs(value) > 0.7: lines.append(f"- {a} and {b} trade against each other (correlation {value:+.2f}).")
 	for key, row in rows.items():

@@ -2,8 +2,8 @@
 """Quadratic surfaces through the trials of a calibration, and what follows from them: where the misfit is least, and how well each parameter is determined.
 
 A surface gives, for each target, (mean - target) / tolerance over the unit cube of the parameters. It is fitted by least squares in which near trials count
-more: exp(-(distance from the best trial / L)²), L being the distance within which there are twice
-as many trials as the surface has coefficients.
+more: exp(-(distance from the best trial / L)²), L being the distance within which there are three
+trials more than the surface has coefficients.
 It passes through the best trial.
 In `profiles` and `correlations` the standard error of the mean over tessellations widens the tolerance.
 """
@@ -30,7 +30,7 @@ class Surface:
 		self.quadratic = len(trials) >= (d + 1) * (d + 2) // 2 + 1
 		design = self._terms(units)
 		distance = np.linalg.norm(units - self.centre, axis=1)
-		scale = np.sort(distance)[min(len(trials) - 1, 2 * design.shape[1])]
+		scale = np.sort(distance)[min(len(trials) - 1, design.shape[1] + 3)]
 		weight = np.exp(-(distance / max(scale, 1e-3))**2)
 		rows = np.array(
 			[[(trial.means[name].mean - trial.targets[name].value) / trial.targets[name].tolerance for name in self.names] for trial in trials]
@@ -107,10 +107,11 @@ class Surface:
 			}
 		return found
 
-	def correlations(self, keys):
-		"""{(key, other): correlation} of parameters that fit equally well, from the surfaces' slopes at the best trial; all of the bounds alike before."""
-		step = 1e-4
-		slopes = np.stack([(self.residuals(self.centre + step * e) - self.residuals(self.centre - step * e)) / (2 * step) / self.widened
-					for e in np.eye(len(keys))], axis=1)
+	def correlations(self, keys, pairs):
+		"""{(key, other): correlation} of parameters that fit equally well, all of the bounds alike before. pairs: for each parameter the trials below and
+		above the best one, of which the slopes are taken."""
+		row = lambda trial: np.array([(trial.means[name].mean - trial.targets[name].value) / trial.targets[name].tolerance for name in self.names])
+		slopes = np.stack([(row(above) - row(below)) / (np.array(above.unit) - below.unit)[i] for i, (below, above) in enumerate(pairs)], axis=1)
+		slopes *= (self.weight / self.widened)[:, None]
 		spread = np.linalg.inv(slopes.T @ slopes + 12 * np.eye(len(keys))) # 12: an even distribution over the bounds
 		return {(keys[i], keys[j]): spread[i, j] / math.sqrt(spread[i, i] * spread[j, j]) for i, j in itertools.combinations(range(len(keys)), 2)}
