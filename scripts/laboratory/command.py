@@ -12,13 +12,12 @@ from yadeblocks import scenario
 
 from .jobs import Job, Jobs
 
-commonKeys = {
-	"seed": 1, "seeds": 5, "jobs": os.cpu_count() or 1, "limit": 1800.0, "retry": False, "scheduler": "", "out": "", "quantities": ""
-}
+commonKeys = {"seed": 1, "seeds": 5, "jobs": os.cpu_count() or 1, "limit": 1800.0, "retry": False, "scheduler": "", "out": "", "quantities": ""}
 commonRules = {"seed": scenario.notNegative, "seeds": scenario.atLeastOne, "jobs": scenario.atLeastOne, "limit": scenario.positive}
 meanings = {
-	"seed": "first tessellation", "seeds": "tessellations at each point", "jobs": "runs at a time on this machine", "limit": "seconds after which a run is ended",
-	"retry": "run again what failed", "scheduler": "HOST:PORT or scheduler file of a dask.distributed cluster that is there already",
+	"seed": "first tessellation", "seeds": "tessellations at each point", "jobs": "runs at a time on this machine",
+	"limit": "seconds after which a run is ended", "retry": "run again what failed",
+	"scheduler": "HOST:PORT or scheduler file of a dask.distributed cluster that is there already",
 	"out": "folder of the results, out/study-KIND-NAME by default", "quantities": "only these, separated by commas"
 }
 
@@ -75,7 +74,10 @@ class Command:
 
 	def write(self, **study):
 		"""study.json, whole or not at all."""
-		writeWhole(self.folder / "study.json", json.dumps(plain({"kind": self.kind, "scenario": self.stem, "settings": self.settings, **study}), indent=1) + "\n")
+		writeWhole(
+			self.folder / "study.json",
+			json.dumps(plain({"kind": self.kind, "scenario": self.stem, "settings": self.settings, **study}), indent=1) + "\n"
+		)
 
 
 def plain(value):
@@ -157,11 +159,14 @@ def quantitiesOf(measured, wanted=()):
 	"""{quantity: unit} of the records, in their order; `wanted` restricts them. Raises StudyError for one that no run has measured."""
 	units = {}
 	for records in measured:
-		for record in good(records).values(): units.update(record["units"])
+		for record in good(records).values():
+			units.update(record["units"])
 	for name in wanted:
 		if name not in units:
 			close = difflib.get_close_matches(name, units, 1)
-			raise StudyError(f"study: there is no quantity {name}{f' (did you mean {close[0]}?)' if close else ''}; measured are: {' '.join(units)}")
+			raise StudyError(
+				f"study: there is no quantity {name}{f' (did you mean {close[0]}?)' if close else ''}; measured are: {' '.join(units)}"
+			)
 	return {name: units[name] for name in (wanted or units)}
 
 
@@ -179,7 +184,8 @@ def bounds(text):
 			raise StudyError(f"study: bounds: {text} cannot be read: {error.strerror}") from None
 		except (ValueError, AttributeError, TypeError):
 			raise StudyError(f"study: bounds: {text} must be of the form {{key: [low, high]}}") from None
-	else: entries = [entry.split(":") for entry in text.split(",") if entry]
+	else:
+		entries = [entry.split(":") for entry in text.split(",") if entry]
 	found = {}
 	for entry in entries:
 		try:
@@ -187,7 +193,8 @@ def bounds(text):
 			if len(entry) > 4 or len(entry) == 4 and entry[3] != "lin": raise ValueError
 		except (ValueError, IndexError, TypeError):
 			raise StudyError(f"study: bounds must be of the form key:low:high or key:low:high:lin, got {':'.join(map(str, entry))}") from None
-		if not -math.inf < low < high < math.inf: raise StudyError(f"study: bounds of {key} must be finite, the lower one below the upper, got {low:g} and {high:g}")
+		if not -math.inf < low < high < math.inf:
+			raise StudyError(f"study: bounds of {key} must be finite, the lower one below the upper, got {low:g} and {high:g}")
 		found[key] = low, high, low > 0 and len(entry) == 3
 	if not found: raise StudyError("study: bounds= must be given, e.g. bounds=cohesion:0.5e6:2e6,friction:20:50:lin")
 	return found
@@ -196,13 +203,6 @@ def bounds(text):
 def place(bounds, unit):
 	"""The parameters at a point of the unit cube; six digits, as they are written down and run."""
 	return {
-		key: float(f"{low * (high / low)**u if proportional else low + u * (high - low):.6g}") for (key, (low, high, proportional)), u in zip(bounds.items(), unit)
+		key: float(f"{low * (high / low)**u if proportional else low + u * (high - low):.6g}")
+		for (key, (low, high, proportional)), u in zip(bounds.items(), unit)
 	}
-
-
-def unplace(bounds, parameters):
-	"""The point of the unit cube at which the parameters are."""
-	return [
-		math.log(parameters[key] / low) / math.log(high / low) if proportional else (parameters[key] - low) / (high - low)
-		for key, (low, high, proportional) in bounds.items()
-	]

@@ -54,7 +54,7 @@ class Engine:
 		_quieten()
 		try:
 			if not self.scheduler: self._startCluster()
-			self.client = Client(**self._address(), timeout=30, set_as_default=False)
+			self.client = Client(**self._address(), timeout=min(30, patience), set_as_default=False)
 			self._waitForWorkers()
 			self.kind = None if self.local else self._oneKind()
 		except (OSError, TimeoutError) as error:
@@ -73,12 +73,10 @@ class Engine:
 		self.cluster = LocalCluster(n_workers=0, host="127.0.0.1", dashboard_address="127.0.0.1:0", silence_logs=50)
 		command = [
 			sys.executable, "-m", "distributed.cli.dask_worker", self.cluster.scheduler_address, "--nworkers",
-			str(self.parallel), "--nthreads", "1", "--host", "127.0.0.1", "--no-dashboard", "--dashboard-address", "127.0.0.1:0", "--memory-limit", "0", "--death-timeout", "60"
+			str(self.parallel), "--nthreads", "1", "--host", "127.0.0.1", "--no-dashboard", "--dashboard-address", "127.0.0.1:0", "--memory-limit",
+			"0", "--death-timeout", "60"
 		]
-		environment = {
-			**os.environ, "DASK_DISTRIBUTED__WORKER__PROFILE__ENABLED": "False",
-			"OMP_NUM_THREADS": "1"
-		}
+		environment = {**os.environ, "DASK_DISTRIBUTED__WORKER__PROFILE__ENABLED": "False", "OMP_NUM_THREADS": "1"}
 		self.workers = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", "--", *command], env=environment, stdin=subprocess.DEVNULL,
 						stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
 
@@ -93,7 +91,8 @@ class Engine:
 		where = self.scheduler or "this machine"
 		until = time.monotonic() + patience
 		while not self.slots():
-			if self.workers and self.workers.poll() is not None: raise EngineError("the local workers did not start: is python3-distributed installed?")
+			if self.workers and self.workers.poll() is not None:
+				raise EngineError("the local workers did not start: is python3-distributed installed?")
 			if time.monotonic() > until: raise EngineError(f"no worker of {where} has appeared within {patience:g} s")
 			time.sleep(0.05)
 
@@ -136,7 +135,8 @@ class Engine:
 		from distributed.scheduler import KilledWorker
 		if future.status == "finished": return future.result()
 		self._alive(time.monotonic())
-		if future.status == "cancelled": raise EngineError(f"the scheduler {self.scheduler} has gone; what is complete is kept, the same command continues")
+		if future.status == "cancelled":
+			raise EngineError(f"the scheduler {self.scheduler} has gone; what is complete is kept, the same command continues")
 		error = future.exception()
 		if isinstance(error, KilledWorker):
 			return {"failed": f"{attempts} workers died of it", "again": True, "wall_s": 0.0, "host": "", "processor": ""}
@@ -152,6 +152,7 @@ class Engine:
 			raise EngineError(f"all workers of {self.scheduler or 'this machine'} have gone; what is complete is kept, the same command continues")
 
 	def _stopRuns(self, futures):
+		if self.client.status != "running": return
 		try:
 			self.client.cancel(futures)
 			self.client.run(run.stopAll, on_error="ignore")

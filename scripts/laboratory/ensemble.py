@@ -40,7 +40,8 @@ def study(command):
 		if not waiting: break
 		for count in sorted({counts[i] for i in waiting}):
 			group = [i for i in waiting if counts[i] == count]
-			for i, records in zip(group, command.measure([points[i] for i in group], range(p.seed, p.seed + count))): measured[i] = records
+			for i, records in zip(group, command.measure([points[i] for i in group], range(p.seed, p.seed + count))):
+				measured[i] = records
 		demandResults(measured)
 		units = quantitiesOf(measured, wanted)
 		if p.until: counts = [next_(measured[i], units, p, counts[i]) for i in range(len(points))]
@@ -65,14 +66,13 @@ def report(command, points, measured, units):
 		for name, unit in units.items():
 			found = summary([record["reported"].get(name) for record in fine.values()])
 			rows.append({
-				"point": label, "quantity": name, "unit": unit, "failed": len(records) - len(fine), **(
-					found._asdict() if found else {"n": 0}
-				), "mean_known_to_percent": 100 * found.halfWidth if found else math.inf
+				"point": label, "quantity": name, "unit": unit, "failed": len(records) - len(fine),
+				**(found._asdict() if found else {"n": 0}), "mean_known_to_percent": 100 * found.halfWidth if found else math.inf
 			})
 		for seed, record in records.items():
 			runs.append({
-				"point": label, "seed": seed, **record.get("reported", {}), "cpu_s": record.get("cost", {}).get("cpu_s"), "failed": record.get("failed"),
-				"command": record["command"]
+				"point": label, "seed": seed, **record.get("reported", {}), "cpu_s": record.get("cost", {}).get("cpu_s"),
+				"failed": record.get("failed"), "command": record["command"]
 			})
 		curves = [record["curve"] for record in fine.values() if record["curve"]]
 		columns = next((record["columns"] for record in fine.values() if record["curve"]), None)
@@ -87,9 +87,9 @@ def report(command, points, measured, units):
 	(folder / "table.md").write_text(text)
 	studypicture.drawEnsemble(folder / "ensemble.png", [each for each in bands if each], rows, title=f"{command.stem}: {len(runs)} runs")
 	command.write(
-		until_percent=command.p.until or None, points=[{
-			"label": label, "settings": point, "quantities": {row["quantity"]: row for row in rows if row["point"] == label}
-		} for label, point in zip(labels, points)], failed=why
+		until_percent=command.p.until or None,
+		points=[{"label": label, "settings": point, "quantities": {row["quantity"]: row for row in rows if row["point"] == label}}
+			for label, point in zip(labels, points)], failed=why
 	)
 	print(text)
 
@@ -112,8 +112,11 @@ def markdown(command, rows, why):
 	lines += [""] + [f"- {count} failed: {reason}" for reason, count in why.items()]
 	until = command.p.until
 	if until:
-		short = [f"{row['quantity']} ({row['point']})" for row in rows if row["n"] and row["scatter"] != 0 and not row["mean_known_to_percent"] <= until]
+		short = [
+			f"{row['quantity']} ({row['point']})" for row in rows if row["n"] and row["scatter"] != 0 and not row["mean_known_to_percent"] <= until
+		]
 		lines.append(
-			f"- Means known to {until:g} %, as asked for." if not short else f"- Not known to {until:g} % with {command.p.seeds} seeds: {', '.join(short)}."
+			f"- Means known to {until:g} %, as asked for."
+			if not short else f"- Not known to {until:g} % with {command.p.seeds} seeds: {', '.join(short)}."
 		)
 	return "\n".join(lines) + "\n"

@@ -85,9 +85,8 @@ class Jobs:
 		for job in jobs:
 			kept = self.record(job)
 			if kept is None or (
-				"failed" in kept and (
-					self.retry or kept.get("again") or kept.get("limit", math.inf) < self.limit or kept["failed"].startswith("exit code -")
-				)
+				"failed" in kept and
+				(self.retry or kept.get("again") or kept.get("limit", math.inf) < self.limit or kept["failed"].startswith("exit code -"))
 			): # killed
 				seen.setdefault(job.name, job)
 		return list(seen.values())
@@ -135,9 +134,9 @@ class Jobs:
 			"PYTHONPATH": os.pathsep.join([str(self.house / "py"), *filter(None, [os.environ.get("PYTHONPATH")])])
 		}
 		return {
-			"key": key, "command": ["yade", "-n", "-x", "-j1", str(script), *words, f"seed={job.seed}", tag], "environment": {
-				**(os.environ if self.engine.local else {}), **environment
-			}, "folder": os.path.join("out", f"{script.stem}-{key}"), "limit": self.limit, "files": self._files(job.script),
+			"key": key, "command": ["yade", "-n", "-x", "-j1", str(script), *words, f"seed={job.seed}",
+						tag], "environment": {**(os.environ if self.engine.local else {}), **environment},
+			"folder": os.path.join("out", f"{script.stem}-{key}"), "limit": self.limit, "files": self._files(job.script),
 			"digest": self.code(job.script)[1], "scratch": str(self.work) if self.engine.local else None
 		}
 
@@ -149,10 +148,13 @@ class Jobs:
 		if outcome.get("changed"): # a result that was made while the code changed belongs to neither state of it
 			raise RuntimeError(f"the code behind {self._script(job.script)} has changed while it was running: start it again")
 		if self.engine.kind and outcome["processor"] and outcome["processor"] != self.engine.kind[1]:
-			outcome = {**outcome, "failed": f"{outcome['host']} has another processor than the first workers: {outcome['processor']}", "again": True}
+			outcome = {
+				**outcome, "failed": f"{outcome['host']} has another processor than the first workers: {outcome['processor']}", "again": True
+			}
 		record = {
 			"parallel": line.parallel, "job": {"script": job.script, "settings": job.settings, "seed": job.seed},
-			"command": " ".join(["scripts/run.sh", job.script, *self._words(job), f"seed={job.seed}"]), "wall_s": outcome["wall_s"], "host": outcome["host"]
+			"command": " ".join(["scripts/run.sh", job.script, *self._words(job),
+						f"seed={job.seed}"]), "wall_s": outcome["wall_s"], "host": outcome["host"]
 		}
 		if "failed" in outcome:
 			record.update({name: outcome[name] for name in ("failed", "again", "limit") if outcome.get(name)})
@@ -192,10 +194,10 @@ def _whatCounts(outcome):
 	result, curve = outcome["result"], outcome["curve"]
 	quantities = result["quantities"]
 	kept = {
-		"reported": {quantity["name"]: quantity["measured"] for quantity in quantities},
-		"units": {quantity["name"]: quantity.get("unit", "") for quantity in quantities}, "expected": {
-			quantity["name"]: quantity["expected"] for quantity in quantities if quantity["expected"] is not None
-		}, "cost": result["cost"], "quality": result["quality"], "curve": None, "columns": None
+		"reported": {quantity["name"]: quantity["measured"] for quantity in quantities}, "units": {
+			quantity["name"]: quantity.get("unit", "") for quantity in quantities
+		}, "expected": {quantity["name"]: quantity["expected"] for quantity in quantities if quantity["expected"] is not None}, "cost": result["cost"],
+		"quality": result["quality"], "curve": None, "columns": None
 	}
 	names = list(curve or ())
 	if len(names) > 2:

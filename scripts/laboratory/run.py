@@ -5,8 +5,8 @@ A worker gets these functions with the task and needs nothing but Python, YADE a
 
 A task is {"command": words, "environment": variables, "folder": where results will be, below a fresh folder, "limit": s of wall-clock time, "files": the
 code that the run depends on, "digest": what their hash has to be, "scratch": where the fresh folder is made, None: the worker's own}.
-Its outcome is {"result": result.json, "curve": {column: values} or None} or {"failed": reason}, with "wall_s", "host" and "processor"; or {"changed": true}: the code is not, or not any
-more, the one that was asked for.
+Its outcome is {"result": result.json, "curve": {column: values} or None} or {"failed": reason}, with "wall_s", "host" and "processor"; or
+{"changed": true}: the code is not, or not any more, the one that was asked for.
 "again" says that the reason lies in the machine: the same run may succeed. "limit" says which limit was too short.
 """
 import csv

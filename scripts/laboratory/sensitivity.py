@@ -5,10 +5,11 @@
 
 First each key alone is moved from its lower to its upper bound, the others staying in the middle, over the same tessellations. Keys that move no quantity by
 more than `screen` percent of its middle value are left out; what acts only together with another key may be missed so. The others are then varied together,
-at `points` points (Latin hypercube), `seeds` tessellations each. A sparse polynomial chaos (OpenTURNS) through the means gives Sobol's indices: first order,
+at `points` points (Latin hypercube), `seeds` tessellations each. A polynomial chaos (OpenTURNS) through the means gives Sobol's indices: first order,
 what a key governs alone; total, with all that it does together with others. They are shares of the variance that the keys cause; the seeds' share is that of
-one run's variance that tessellations cause. Q² is how much of the variance the polynomial predicts at points it was not fitted to (five parts in turn); of
-indices with a Q² below 0.7 nothing should be read. Intervals: 5 % to 95 % of fits to points drawn with replacement.
+one run's variance that tessellations cause. Q² is how much of the variance the polynomial predicts at points it was not fitted to (five parts in turn;
+the number of terms is the one with the best Q²); of indices with a Q² below 0.7 nothing should be read. Intervals: 5 % to 95 % of fits to points drawn with
+replacement.
 Results: study.json, table.md, points.csv, sensitivity.png.
 """
 import math
@@ -24,8 +25,8 @@ from .command import StudyError, bounds, demandResults, good, listed, place, qua
 keys = {"bounds": "", "points": 0, "seeds": 3, "screen": 2.0, "samplerSeed": 1, "bootstrap": 30}
 rules = {"points": scenario.notNegative, "screen": scenario.notNegative, "samplerSeed": scenario.notNegative, "bootstrap": scenario.notNegative}
 meanings = {
-	"bounds": "key:low:high[:lin],... or a file", "points": "sets of parameters; 0: 15 for each key that is left", "screen": "percent below which a key is left out",
-	"samplerSeed": "of the Latin hypercube", "bootstrap": "fits for the intervals"
+	"bounds": "key:low:high[:lin],... or a file", "points": "sets of parameters; 0: 15 for each key that is left",
+	"screen": "percent below which a key is left out", "samplerSeed": "of the Latin hypercube", "bootstrap": "fits for the intervals"
 }
 
 
@@ -47,7 +48,9 @@ def study(command):
 	demandResults(varied)
 	indices = {}
 	for name in units:
-		found = analyse(cube, [[record["reported"].get(name) for record in good(records).values()] for records in varied], left, p.bootstrap, p.samplerSeed)
+		found = analyse(
+			cube, [[record["reported"].get(name) for record in good(records).values()] for records in varied], left, p.bootstrap, p.samplerSeed
+		)
 		if found: indices[name] = found
 	report(command, edges, units, screening, left, cube, varied, indices)
 
@@ -76,65 +79,66 @@ def latin(count, dimension, seed):
 
 def analyse(cube, values, keys, bootstrap=30, seed=1):
 	"""Indices of a quantity: {"first": {key: (value, low, high)}, "total": the same, "Q2", "seeds_share", "points", "sum_first"}, or None if fewer
-	than 5 points have values, or they are all the same. values: those of the seeds, for each point."""
-	import openturns as ot
+	than 2 keys + 4 points have values, or they are all the same. values: those of the seeds, for each point."""
 	fine = [i for i, row in enumerate(values) if len(row)]
 	units, rows = np.asarray(cube)[fine], [np.asarray(values[i], float) for i in fine]
 	means = np.array([row.mean() for row in rows])
-	if len(fine) < 5 or not means.std() > 1e-12 * abs(means).max(): return None
+	if len(fine) < 2 * len(keys) + 4 or not means.std() > 1e-12 * abs(means).max(): return None
 	freedom = sum(len(row) - 1 for row in rows)
 	within = sum(((row - row.mean())**2).sum() for row in rows) / freedom if freedom else math.nan
-	ot.RandomGenerator.SetSeed(seed)
-	result = _chaos(units, means)
+	quality, size = max((predicted(units, means, size), size) for size in sizes(len(keys), len(means)))
+	result = _chaos(units, means, size)
 	variance = float(result["variance"])
 	rng, drawn = np.random.default_rng(seed), []
 	for _ in range(bootstrap):
 		pick = rng.integers(len(means), size=len(means))
-		if means[pick].std() > 0: drawn.append(_chaos(units[pick], means[pick]))
+		if means[pick].std() > 0: drawn.append(_chaos(units[pick], means[pick], min(size, len(set(pick)) // 2)))
 	interval = lambda kind, i: tuple(np.quantile([each[kind][i] for each in drawn], (0.05, 0.95))) if drawn else (math.nan, math.nan)
 	rowsOf = lambda kind: {key: (result[kind][i], *interval(kind, i)) for i, key in enumerate(keys)}
 	return {
-		"first": rowsOf("first"), "total": rowsOf("total"), "Q2": predicted(units, means), "sum_first": float(sum(result["first"])),
+		"first": rowsOf("first"), "total": rowsOf("total"), "Q2": quality, "terms": size, "sum_first": float(sum(result["first"])),
 		"seeds_share": within / (within + variance) if within + variance > 0 else math.nan, "scatter_of_seeds": math.sqrt(within),
 		"scatter_by_keys": math.sqrt(variance), "mean": float(result["mean"]), "points": len(fine)
 	}
 
 
-def _chaos(units, means):
-	"""A sparse polynomial chaos through the means, and its Sobol indices."""
-	chaos, centre, scale = _fitted(units, means)
-	import openturns as ot
-	sobol = ot.FunctionalChaosSobolIndices(chaos)
-	d = units.shape[1]
-	coefficients = np.array(chaos.getCoefficients())[:, 0]
-	indices = list(chaos.getIndices())
-	constant = sum(c for c, i in zip(coefficients, indices) if i == 0)
-	variance = sum(c**2 for c, i in zip(coefficients, indices) if i) * scale**2
-	if not variance: return {"first": [0.0] * d, "total": [0.0] * d, "variance": 0.0, "mean": centre}
+def _chaos(units, means, size):
+	"""Sobol's indices of a polynomial chaos of so many terms: they are orthogonal, so each one's square is a part of the variance."""
+	chaos, powers, centre, scale = _fitted(units, means, size)
+	parts = np.array(chaos.getCoefficients())[:, 0]
+	acts = powers > 0
+	mean = centre + scale * parts[~acts.any(axis=1)].sum()
+	parts = parts**2
+	variance = parts[acts.any(axis=1)].sum()
+	alone = acts.sum(axis=1) == 1
+	share = lambda which: float(parts[which].sum() / variance) if variance else 0.0
 	return {
-		"first": [sobol.getSobolIndex(i) for i in range(d)], "total": [sobol.getSobolTotalIndex(i) for i in range(d)], "variance": variance,
-		"mean": centre + scale * constant
+		"first": [share(alone & acts[:, i]) for i in range(acts.shape[1])], "total": [share(acts[:, i]) for i in range(acts.shape[1])],
+		"variance": variance * scale**2, "mean": mean
 	}
 
 
-def _fitted(units, means):
-	"""The chaos of (means - centre) / scale, centre and scale; least angle regression chooses the terms, corrected leave-one-out their number."""
+def _fitted(units, means, size):
+	"""The chaos of (means - centre) / scale by least squares, the powers of its terms, centre and scale. Terms that are of low degree, and of few keys,
+	come first."""
 	import openturns as ot
 	d, centre, scale = units.shape[1], means.mean(), means.std()
-	basis = ot.OrthogonalProductPolynomialFactory([ot.LegendreFactory()] * d, ot.HyperbolicAnisotropicEnumerateFunction(d, 0.7))
-	degree = 8 if d == 1 else 6 if d < 4 else 4
-	size = min(basis.getEnumerateFunction().getStrataCumulatedCardinal(degree), 3 * len(means))
-	selection = ot.LeastSquaresMetaModelSelectionFactory(ot.LARS(), ot.CorrectedLeaveOneOut())
+	terms = ot.HyperbolicAnisotropicEnumerateFunction(d, 0.7)
+	basis = ot.OrthogonalProductPolynomialFactory([ot.LegendreFactory()] * d, terms)
+	sample, values = ot.Sample(units.tolist()), ot.Sample([[value] for value in (means - centre) / scale])
 	cube = ot.ComposedDistribution([ot.Uniform(0, 1)] * d)
-	values = [[value] for value in (means - centre) / scale]
-	algorithm = ot.FunctionalChaosAlgorithm(
-		ot.Sample(units.tolist()), ot.Sample(values), cube, ot.FixedStrategy(basis, int(size)), ot.LeastSquaresStrategy(ot.Sample(units.tolist()), ot.Sample(values), selection)
-	)
+	algorithm = ot.FunctionalChaosAlgorithm(sample, values, cube, ot.FixedStrategy(basis, size), ot.LeastSquaresStrategy(sample, values))
 	algorithm.run()
-	return algorithm.getResult(), centre, scale
+	chaos = algorithm.getResult()
+	return chaos, np.array([list(terms(i)) for i in chaos.getIndices()]).reshape(-1, d), centre, scale
 
 
-def predicted(units, means, parts=5):
+def sizes(d, points):
+	"""Numbers of terms worth trying: linear, and a sixth, a quarter, two fifths of the points."""
+	return sorted({max(d + 1, int(share * points)) for share in (0, 1 / 6, 1 / 4, 2 / 5)})
+
+
+def predicted(units, means, size, parts=5):
 	"""Q²: 1 - squared errors of predictions by their variance; each fifth is predicted from the others."""
 	errors = np.empty(len(means))
 	order = np.random.default_rng(0).permutation(len(means))
@@ -142,9 +146,10 @@ def predicted(units, means, parts=5):
 		out = order[part::parts]
 		rest = np.setdiff1d(order, out)
 		if means[rest].std() > 0:
-			chaos, centre, scale = _fitted(units[rest], means[rest])
+			chaos, _, centre, scale = _fitted(units[rest], means[rest], size)
 			errors[out] = means[out] - centre - scale * np.array(chaos.getMetaModel()(units[out].tolist()))[:, 0]
-		else: errors[out] = means[out] - means[rest].mean()
+		else:
+			errors[out] = means[out] - means[rest].mean()
 	return float(1 - (errors**2).mean() / means.var())
 
 
@@ -169,10 +174,14 @@ def report(command, edges, units, screening, left, cube, varied, indices):
 
 
 def markdown(command, edges, units, screening, left, indices, why):
-	lines = [f"# {command.stem}, what governs it", "", "Each key alone, from its lower to its upper bound, the others in the middle (change ± standard error):", ""]
+	lines = [
+		f"# {command.stem}, what governs it", "",
+		"Each key alone, from its lower to its upper bound, the others in the middle (change ± standard error):", ""
+	]
 	lines += ["| key | bounds | " + " | ".join(units) + " |", "|---" * (2 + len(units)) + "|"]
 	for key, (low, high, _) in edges.items():
-		cell = lambda name: "{:+.1f} ± {:.1f} %".format(*(100 * screening[name][key][part] for part in ("effect", "error"))) if key in screening[name] else ""
+		cell = lambda name: "{:+.1f} ± {:.1f} %".format(*(100 * screening[name][key][part]
+									for part in ("effect", "error"))) if key in screening[name] else ""
 		lines.append(f"| {key}{'' if key in left else ' (left out)'} | {low:.4g} to {high:.4g} | " + " | ".join(map(cell, units)) + " |")
 	lines += ["", "Sobol's indices, first order / total (5 % to 95 % of the total), shares of the variance that the keys cause:", ""]
 	lines += ["| quantity | " + " | ".join(left) + " | sum of first | seeds' share of one run's variance | Q² | points |", "|---" * (5 + len(left)) + "|"]

@@ -49,7 +49,8 @@ def valuesNeeded(known, share):
 	"""About how many values make the mean known to this share of it, judged from a Summary."""
 	if known.n < 2 or not known.mean: return known.n + 1
 	n = known.n
-	while n < 100000 and stats.t.ppf((1 + confidence) / 2, n - 1) * known.scatter / math.sqrt(n) > share * abs(known.mean): n += 1
+	while n < 100000 and stats.t.ppf((1 + confidence) / 2, n - 1) * known.scatter / math.sqrt(n) > share * abs(known.mean):
+		n += 1
 	return n
 
 

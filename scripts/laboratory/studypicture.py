@@ -14,7 +14,8 @@ def drawEnsemble(path, bands, rows, title):
 	figure, (left, right) = plt.subplots(1, 2, figsize=(12, 5))
 	for number, (label, columns, band, curves) in enumerate(bands):
 		colour = colours[number % len(colours)]
-		for x, y in curves[:50]: left.plot(x, y, color=colour, lw=0.3, alpha=0.4)
+		for x, y in curves[:50]:
+			left.plot(x, y, color=colour, lw=0.3, alpha=0.4)
 		left.fill_between(band["x"], band["low"], band["high"], color=colour, alpha=0.25, lw=0)
 		left.plot(band["x"], band["mean"], color=colour, lw=2, label=label)
 		left.set_xlabel(columns[0]), left.set_ylabel(columns[1])
@@ -45,7 +46,10 @@ def drawSensitivity(path, names, keys, screening, indices, title):
 		rows = list(found["first"])
 		for shift, kind, colour in ((-0.2, "first", "C0"), (0.2, "total", "C1")):
 			values = np.array([found[kind][key] for key in rows]) # value, low, high
-			lower.barh(np.arange(len(rows)) + shift, values[:, 0], 0.4, color=colour, label=kind, xerr=abs(values[:, 1:].T - values[:, 0]), ecolor="0.3")
+			lower.barh(
+				np.arange(len(rows)) + shift, values[:, 0], 0.4, color=colour, label=kind, xerr=abs(values[:, 1:].T - values[:, 0]),
+				ecolor="0.3"
+			)
 		lower.set_yticks(range(len(rows)), rows), lower.legend(fontsize=7)
 		lower.set_xlabel(f"Sobol index; seeds' share {100 * found['seeds_share']:.0f} %, Q² {found['Q2']:.2f}", fontsize=8)
 	_save(figure, path, title)

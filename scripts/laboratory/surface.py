@@ -2,7 +2,9 @@
 """Quadratic surfaces through the trials of a calibration, and what follows from them: where the misfit is least, and how well each parameter is determined.
 
 A surface gives, for each target, (mean - target) / tolerance over the unit cube of the parameters. It is fitted by least squares in which near trials count
-more: exp(-(distance from the best trial / L)²), L being the distance of the trial with which twice as many are within it as the surface has coefficients.
+more: exp(-(distance from the best trial / L)²), L being the distance within which there are three
+trials more than the surface has coefficients.
+It passes through the best trial.
 In `profiles` and `correlations` the standard error of the mean over tessellations widens the tolerance.
 """
 import itertools
@@ -28,9 +30,11 @@ class Surface:
 		self.quadratic = len(trials) >= (d + 1) * (d + 2) // 2 + 1
 		design = self._terms(units)
 		distance = np.linalg.norm(units - self.centre, axis=1)
-		scale = np.sort(distance)[min(len(trials) - 1, 2 * design.shape[1])]
+		scale = np.sort(distance)[min(len(trials) - 1, design.shape[1] + 3)]
 		weight = np.exp(-(distance / max(scale, 1e-3))**2)
-		rows = np.array([[(trial.means[name].mean - trial.targets[name].value) / trial.targets[name].tolerance for name in self.names] for trial in trials])
+		rows = np.array(
+			[[(trial.means[name].mean - trial.targets[name].value) / trial.targets[name].tolerance for name in self.names] for trial in trials]
+		)
 		root = np.sqrt(weight)[:, None]
 		stiff = 1e-6 * np.eye(design.shape[1]) # keeps apart what the trials do not tell apart
 		stiff[0, 0] = 0
@@ -39,6 +43,7 @@ class Surface:
 		leverage = np.clip(np.einsum("ij,jk,ik->i", root * design, inverse, root * design), 0, 0.999)
 		left = (rows - design @ self.coefficients) / (1 - leverage)[:, None] # of each trial, from the surface without it
 		self.errors = dict(zip(self.names, np.sqrt((weight[:, None] * left**2).sum(axis=0) / weight.sum())))
+		self.coefficients[0] = rows[trials.index(best)] # the same tessellations in every trial: there it is known, and steps from there converge
 		self.weight = np.sqrt([best.targets[name].weight for name in self.names])
 		noise = [best.means[name].scatter / math.sqrt(best.means[name].n) / best.targets[name].tolerance for name in self.names]
 		self.widened = np.sqrt(1 + np.nan_to_num(noise)**2)
@@ -82,13 +87,17 @@ class Surface:
 				if not others: misfit.append(float((function([value])**2).sum()))
 				else:
 					starts = [np.clip(self.centre[others], 1e-6, 1 - 1e-6), np.full(len(others), 0.3), np.full(len(others), 0.7)]
-					misfit.append(min(2 * least_squares(lambda rest: function(whole(rest, value)), start, bounds=(0, 1)).cost for start in starts))
+					misfit.append(
+						min(
+							2 * least_squares(lambda rest: function(whole(rest, value)), start, bounds=(0, 1)).cost
+							for start in starts
+						)
+					)
 			misfit = np.array(misfit)
 			allowed = np.flatnonzero(misfit <= misfit.min() + 1)
 			first, last = allowed[0], allowed[-1]
-			cross = lambda inside, outside: held[inside] + (held[outside] - held[inside]) * (misfit.min() + 1 - misfit[inside]) / (
-				misfit[outside] - misfit[inside]
-			) # between two of the values
+			cross = lambda inside, outside: held[inside] + (held[outside] - held[inside]) * (misfit.min() + 1 - misfit[
+				inside]) / (misfit[outside] - misfit[inside]) # between two of the values
 			low = cross(first, first - 1) if first > 0 else 0.0
 			high = cross(last, last + 1) if last < points - 1 else 1.0
 			value = lambda u: place(bounds, [u if j == i else 0.5 for j in range(len(bounds))])[key]
@@ -98,10 +107,11 @@ class Surface:
 			}
 		return found
 
-	def correlations(self, keys):
-		"""{(key, other): correlation} of parameters that fit equally well, from the surfaces' slopes at the best trial; all of the bounds alike before."""
-		step = 1e-4
-		slopes = np.stack([(self.residuals(self.centre + step * e) - self.residuals(self.centre - step * e)) / (2 * step) / self.widened
-					for e in np.eye(len(keys))], axis=1)
+	def correlations(self, keys, pairs):
+		"""{(key, other): correlation} of parameters that fit equally well, all of the bounds alike before. pairs: for each parameter the trials below and
+		above the best one, of which the slopes are taken."""
+		row = lambda trial: np.array([(trial.means[name].mean - trial.targets[name].value) / trial.targets[name].tolerance for name in self.names])
+		slopes = np.stack([(row(above) - row(below)) / (np.array(above.unit) - below.unit)[i] for i, (below, above) in enumerate(pairs)], axis=1)
+		slopes *= (self.weight / self.widened)[:, None]
 		spread = np.linalg.inv(slopes.T @ slopes + 12 * np.eye(len(keys))) # 12: an even distribution over the bounds
 		return {(keys[i], keys[j]): spread[i, j] / math.sqrt(spread[i, i] * spread[j, j]) for i, j in itertools.combinations(range(len(keys)), 2)}
