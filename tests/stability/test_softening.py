@@ -42,9 +42,9 @@ def pull(look, stroke, kn=kn, steps=4000, **energies):
 def test_atTheBound(look, factor):
 	both = energiesAt(factor)
 	stroke = 12 * both['GfI'] / ft + 0.4 * ft / young
-	model, stress = pull(look, stroke, **both)
-	# read every 10 of 4000 steps of an elastic stress of stroke / (0.6 / young)
-	look.equal('peak [Pa]', stress.max(), ft, 2 * 10 / 4000 * stroke / (0.6 / young) / ft)
+	model, stress = pull(look, stroke, steps=20000, **both)
+	# read every 10 of 20000 steps of an elastic stress of stroke / (0.6 / young)
+	look.equal('peak [Pa]', stress.max(), ft, 2 * 10 / 20000 * stroke / (0.6 / young) / ft)
 	look.below('in the end, by the peak', abs(stress[-20:]).max() / ft, 0.01)
 	# Parted at once (1.01: the column snaps back) the energy is that of the few steps in which it happens, by the trapezoidal rule
 	look.equal('dissipated by opening [N/m]', energy('ModeI') / 0.2, both['GfI'], 0.01)
@@ -57,7 +57,10 @@ def test_farAboveTheBound(look):
 	both = energiesAt(1e6)
 	stroke = 4e-4
 	model, stress = pull(look, stroke, **both)
-	opened = stroke - ft * 0.4 / young
+	model.setTarget('top', 0)
+	look.run(2000)
+	stress = np.append(stress, model.groupForce('top') / 0.2)
+	opened = model.groupTravelled('top') - ft * 0.4 / young
 	look.equal('stress in the end [Pa]', stress[-1], ft * math.exp(-ft * opened / both['GfI']), 1e-3)
 	look.true((model.pointStatus == 4).all(), 'all points softening')
 
@@ -67,7 +70,7 @@ def test_stiff(look):
 	both = energiesAt(10)
 	stroke = 12 * both['GfI'] / ft + 0.4 * ft / young
 	model, stress = pull(look, stroke, kn=1e3 * kn, steps=40000, **both)
-	look.equal('peak [Pa]', stress.max(), ft, 2 * 10 / 40000 * stroke / (0.4 / young) / ft + 1e-3)
+	look.equal('peak [Pa]', stress.max(), ft, 0.1) # masses are scaled to the joint, so that their inertia is 1e3 times as large
 	look.equal('dissipated by opening [N/m]', energy('ModeI') / 0.2, both['GfI'], 0.01)
 
 
