@@ -12,9 +12,8 @@ Two clay bricks, 100 x 50 x 50 mm, and a mortar joint of 15 mm made of Voronoi b
 	TT3   TT2 with blocks of 6 mm: 0.43 N/mm2
 
 	joints=measured      joints that soften, all alike, with what was measured and nothing fitted (yadeblocks.softening)
-	joints=calibrated    the same with strengths that scatter from joint to joint, fitted to 0.35 N/mm2
 
-With either, the case only says the size, and the run goes on until the stress has fallen to 1 % of its peak, so that `fracture_energy` is that of the section.
+With it, the case only says the size, and the run goes on until the stress has fallen to 1 % of its peak, so that `fracture_energy` is that of the section.
 scatter= is the strengths' coefficient of variation, scatterLength= [m] their field's correlation length; tension, cohesion, GfI and GfII [SI] show what governs
 the result.
 
@@ -60,7 +59,7 @@ cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [M
 	'TT2b': (table2, table2, 2e-3, None, None),
 	'TT3': (table3, table3, 6e-3, *experiments.tensileStrengthOfPaper[6e-3]),
 }
-softeningSets = {'measured': softening.measured, 'calibrated': softening.measured} # all joints alike
+softeningSets = {'measured': softening.measured} # all joints alike
 stroke, velocity, faster = 0.03e-3, 0.02e-3, 10 # [m], [m/s]; so many times as fast behind the peak, where joints soften
 
 p = scenario.parameters({
