@@ -41,7 +41,8 @@ def column():
 		segmentParameters=np.array([(0., 1., 1., 0.), (0., 1 / 3, 1., 2 / 3)]), segmentArea=np.array([75e-6, 25e-6]), pointOpening=np.array([
 			1., 2., 3., 4.
 		]), pointSlip=np.array([5., 6., 7., 8.]), pointSigma=np.array([9., 10., 11., 12.]), pointTau=np.array([13., 14., 15., 16.]),
-		pointStatus=np.array([1, 2, 3, 3], np.uint8), zoneStress=lambda: stress, cornerTriangles={2: np.array([(8, 9, 10), (8, 10, 11)], np.int32)}.get
+		pointStatus=np.array([1, 2, 3, 3], np.uint8), pointDamage=np.array([1., 1., 0., 0.]), zoneStress=lambda: stress,
+		cornerTriangles={2: np.array([(8, 9, 10), (8, 10, 11)], np.int32)}.get
 	)
 
 
