@@ -66,6 +66,10 @@ def run(steps=None, pause=None, every=0):
 	while not _stretch(O, last, start + every if pause else None):
 		pause()
 		start = time.monotonic()
+	for body in O.bodies: # the last steps of a run that was stopped by an engine behind BlockMotion
+		if type(body.shape).__name__ == "Block":
+			body.shape.model.requireSound()
+			break
 
 
 def _stretch(O, last, until):

@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/engines/BlockForces.hpp>
+#include <blocks/engines/EngineList.hpp>
 #include <blocks/engines/RigidBodies.hpp>
 #include <blocks/kernel/step/Step.hpp>
 #include <core/EnergyTracker.hpp>
@@ -14,7 +15,7 @@ void BlockForces::newScene()
 {
 	before     = {};
 	frictionId = fractureId = modeIId = modeIIId = capId = -1;
-	looked = saidSnapped = false;
+	looked = saidSnapped = told = false;
 }
 
 void BlockForces::computeForces(BlockModel& model, int threads)
@@ -30,6 +31,10 @@ void BlockForces::computeForces(BlockModel& model, int threads)
 void BlockForces::lookAtEngines(BlockModel& model)
 {
 	const bool look = !looked || scene->iter % askPeriod == 0, rigid = !model.assembly.state.rigid.empty();
+	if (look) {
+		requireEngines(scene, model, stepsJoints());
+		requireUntouched(scene, model);
+	}
 	if (!look && !rigid) return;
 	noteFreedom(scene, model);
 	const Engine* newton = requireMovers(scene, model);
@@ -40,6 +45,10 @@ void BlockForces::lookAtEngines(BlockModel& model)
 	}
 	asked  = newton;
 	looked = true;
+	if (told) return;
+	told                = true;
+	const string remark = remarks(scene, model);
+	if (!remark.empty()) LOG_WARN(remark);
 }
 
 void BlockForces::step(BlockModel& model)

@@ -21,6 +21,8 @@ public:
 protected:
 	/// a.forces.nodal, and with O.trackEnergy the accounts of what joints dissipate.
 	virtual void computeForces(BlockModel&, int threads);
+	/// Whether joints are stepped here, not by an InteractionLoop.
+	virtual bool stepsJoints() const { return false; }
 
 private:
 	void lookAtEngines(BlockModel&);
@@ -30,6 +32,7 @@ private:
 	bool                 saidSnapped = false;
 
 	const Engine*         asked     = nullptr; ///< the NewtonIntegrator that was asked for its attributes last
+	bool                  told      = false;   ///< whether what is remarkable was said
 	bool                  looked    = false;   ///< whether O.engines was looked at in this scene
 	static constexpr long askPeriod = 100;     ///< steps until it is looked at again
 };

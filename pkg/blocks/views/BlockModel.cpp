@@ -161,6 +161,15 @@ void BlockModel::setJoint(int pair, const JointMat& joint)
 	stiffnessChanged();
 }
 
+string BlockModel::withoutJoint(int contact) const
+{
+	const blocks::FreeContact& c = assembly.state.contacts[contact];
+	if (c.joint.kn > 0 || c.active.empty()) return "";
+	const string first = materialLabels[assembly.mesh.blockMaterial[c.block[0]]], second = materialLabels[assembly.mesh.blockMaterial[c.block[1]]];
+	return "there is no JointMat for the pair of materials \"" + std::min(first, second) + "\" and \"" + std::max(first, second) + "\", whose blocks "
+		+ std::to_string(c.block[0]) + " and " + std::to_string(c.block[1]) + " touch and would pass through each other";
+}
+
 void BlockModel::requireProperties()
 {
 	if (propertiesKnown == version) return;

@@ -59,6 +59,9 @@ public:
 	/// Properties of a pair's joints, and whether they are whole; several threads may do this for different pairs, with joints that do not soften.
 	void setJoint(int pair, const JointMat&);
 
+	/// What is missing where two blocks touch without a bond and no JointMat says how; empty if nothing is.
+	string withoutJoint(int contact) const;
+
 	/// Refuses joints without properties.
 	void requireProperties();
 

@@ -29,6 +29,7 @@ namespace {
 			f.sharpness[to]     = tangent > straight ? tangent * tangent : 0;
 			f.rounding[to]      = roundingFraction * std::min(in.norm(), out.norm());
 		}
+		f.leastDepth = std::numeric_limits<Real>::infinity();
 		f.depthLimit.resize(a.blockCount());
 		f.meanEdge.resize(a.blockCount());
 		for (int b = 0; b < a.blockCount(); ++b) {
@@ -41,6 +42,7 @@ namespace {
 			}
 			f.depthLimit[b] = area / outline; // between half the inradius (compact blocks) and all of it (thin ones)
 			f.meanEdge[b]   = outline / (a.mesh.firstEdge[b + 1] - a.mesh.firstEdge[b]);
+			f.leastDepth    = std::min(f.leastDepth, f.depthLimit[b]);
 		}
 	}
 

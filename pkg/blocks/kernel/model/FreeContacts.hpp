@@ -70,6 +70,7 @@ struct FreeContacts {
 	std::vector<Real> sharpness, rounding;  ///< of grid points on outlines, see EdgeShape
 	std::vector<int>  edgeFrom;             ///< grid point -> the boundary edge that starts there, or -1
 	std::vector<Real> depthLimit, meanEdge; ///< of blocks [m]
+	Real              leastDepth = 0;       ///< the least of depthLimit [m]
 
 	// ---- how far things have moved
 	std::vector<Real> sleepsUntil; ///< contact -> nothing of it touches before the paths of its two blocks add up to this; 0: to be looked at [m]

@@ -189,6 +189,65 @@ namespace {
 		return moved;
 	}
 
+	/// Whether a number is above the limit in size, or none.
+	WIDE std::int64_t countAbove(const Real* __restrict now, int count, Real limit)
+	{
+		std::int64_t above = 0;
+		for (int i = 0; i < count; ++i)
+			above += !(std::abs(now[i]) <= limit);
+		return above;
+	}
+
+	/// Mean velocity of a block's grid points, and the most by which one of them differs from another block's mean [m/s].
+	Vec2 meanVelocity(const BlockAssembly& a, int block)
+	{
+		Vec2 sum = Vec2::Zero();
+		for (int n = a.mesh.firstNode[block]; n < a.mesh.firstNode[block + 1]; ++n)
+			sum += a.state.velocity[n];
+		return sum / (a.mesh.firstNode[block + 1] - a.mesh.firstNode[block]);
+	}
+	Real fastest(const BlockAssembly& a, int block, const Vec2& against)
+	{
+		Real square = 0;
+		for (int n = a.mesh.firstNode[block]; n < a.mesh.firstNode[block + 1]; ++n)
+			square = std::max(square, (a.state.velocity[n] - against).squaredNorm());
+		return std::sqrt(square);
+	}
+
+	/// Where a block was a step ago, is, and will be a step on, as seen from one that moves.
+	Box sweptBox(const BlockAssembly& a, int block, const Vec2& against, Real dt)
+	{
+		Box box = boxOf(a, block);
+		for (int e = a.mesh.firstEdge[block]; e < a.mesh.firstEdge[block + 1]; ++e) {
+			const int  n    = a.mesh.edgeNodes[e][0];
+			const Vec2 step = dt * (a.state.velocity[n] - against);
+			box.include(a.position(n) - step);
+			box.include(a.position(n) + step);
+		}
+		return box;
+	}
+
+	/// Refuses blocks that come too fast for their contact with another one: they would be deep in it, or past it, before it acts.
+	void refuseTunnelling(const BlockAssembly& a, Real dt)
+	{
+		const FreeContacts& f = a.contacts;
+		for (int b = 0; b < a.blockCount(); ++b) {
+			const Real own = fastest(a, b, Vec2::Zero());
+			if (own * dt <= mostAStep * f.leastDepth) continue;
+			for (int other = 0; other < a.blockCount(); ++other) {
+				if (other == b) continue;
+				const Vec2 with  = meanVelocity(a, other);
+				const Real speed = fastest(a, b, with), limit = mostAStep * std::min(f.depthLimit[b], f.depthLimit[other]);
+				if (speed * dt <= limit || !sweptBox(a, b, with, dt).meets(boxOf(a, other), 0)) continue;
+				if (pairOf(a, { std::min(b, other), std::max(b, other) }) >= 0 && !bondedEdges(a, ordered(b, other)).empty()) continue;
+				throw std::runtime_error(
+					"block " + std::to_string(b) + " nears block " + std::to_string(other) + " at " + shown(speed, 6) + " m/s, "
+					+ shown(speed * dt, 3) + " m a step, and might pass through it: contacts need steps of at most " + shown(limit, 3)
+					+ " m, so O.dt must not exceed " + shown(limit / speed, 3) + " s at this speed");
+			}
+		}
+	}
+
 	/// Lengths of the paths of those blocks that have contacts.
 	void followMotion(BlockAssembly& a)
 	{
@@ -382,9 +441,10 @@ void setGeneralContact(BlockAssembly& a, bool wanted)
 	rebuildContacts(a);
 }
 
-void prepareContacts(BlockAssembly& a)
+void prepareContacts(BlockAssembly& a, Real dt)
 {
-	FreeContacts& f = a.contacts;
+	FreeContacts& f     = a.contacts;
+	const bool    first = !f.started; // the step may not have its length yet
 	if (!f.started && !start(a))
 		look(a, true);
 	else {
@@ -394,6 +454,8 @@ void prepareContacts(BlockAssembly& a)
 	}
 	collectBroken(a);
 	if (!f.waiting.empty()) releaseBroken(a);
+	const Real perAxis = mostAStep * f.leastDepth * std::sqrt(Real(0.5));
+	if (!first && dt > 0 && countAbove(a.state.velocity.data()->data(), 2 * a.nodeCount(), perAxis / dt) > 0) refuseTunnelling(a, dt);
 }
 
 } // namespace blocks

@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
 #include <blocks/kernel/Wide.hpp>
+#include <blocks/kernel/step/ContactSearch.hpp>
 #include <blocks/kernel/step/Contacts.hpp>
 #include <limits>
 
@@ -221,6 +222,25 @@ ContactEnd contactEnd(const BlockAssembly& a, const FreeContact& c, int active, 
 	const EdgeGeometry& g   = c.geometry[active];
 	const EdgeEnd       end = edgeEnd(raisedCorners(a, e), g, k);
 	return { a.mesh.reference[e.node[0]] + (end.onA + end.onB) / 2, { g.t.y(), -g.t.x() }, g.depth[k], e.sigma[k], e.tau[k], e.area };
+}
+
+PointStresses pointStresses(const BlockAssembly& a, int first, int last)
+{
+	auto          part = [&](const std::vector<Real>& all) { return std::vector<Real>(all.begin() + 2 * first, all.begin() + 2 * last); };
+	PointStresses out { part(a.state.sigma), part(a.state.tau) };
+	for (int i = first; i < last; ++i) {
+		if (!a.state.released[i]) continue;
+		const Segment&           g       = a.joints.segments[i];
+		const int                contact = contactOf(a, g.block[0], g.block[1]);
+		const std::array<int, 2> key { a.contacts.edgeFrom[g.node[0]], a.contacts.edgeFrom[g.node[2]] };
+		if (contact < 0) continue;
+		const auto& edges = a.state.contacts[contact].edges;
+		const auto  at = std::lower_bound(edges.begin(), edges.end(), key, [](const EdgePair& e, const std::array<int, 2>& k) { return e.edge < k; });
+		if (at == edges.end() || at->edge != key || !at->touching) continue;
+		for (int k : { 0, 1 })
+			out.sigma[2 * (i - first) + k] = at->sigma[k], out.tau[2 * (i - first) + k] = at->tau[k];
+	}
+	return out;
 }
 
 } // namespace blocks
