@@ -187,5 +187,5 @@ class Engine:
 def _quieten():
 	"""Dask's own reports: what matters is said by EngineError."""
 	import logging
-	for name in ("distributed", "distributed.worker", "distributed.scheduler", "distributed.nanny", "distributed.client", "distributed.core", "tornado", "asyncio"):
+	for name in ("distributed", *("distributed." + part for part in ("worker", "scheduler", "nanny", "client", "core")), "tornado", "asyncio"):
 		logging.getLogger(name).setLevel(logging.CRITICAL)

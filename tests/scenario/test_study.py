@@ -143,7 +143,8 @@ folder.mkdir(parents=True)
 stress = float(words.get('strength', '0.35'))
 rows = ['seed,displacement_mm,stress_MPa'] + ['1,%g,%g' % (i / 1e4, stress * i / 100) for i in range(101)]
 (folder / 'curve.csv').write_text(chr(10).join(rows))
-(folder / 'result.json').write_text(json.dumps({'quantities': [{'name': 'peak', 'measured': stress, 'unit': 'MPa', 'expected': None}], 'cost': {'cpu_s': 1.5, 'steps': 7}, 'quality': {}}))
+peak = {'name': 'peak', 'measured': stress, 'unit': 'MPa', 'expected': None}
+(folder / 'result.json').write_text(json.dumps({'quantities': [peak], 'cost': {'cpu_s': 1.5, 'steps': 7}, 'quality': {}}))
 """
 
 
@@ -272,7 +273,8 @@ def test_studyGoesOnWhereItWasInterrupted(study5, house):
 	words = "ensemble", "tension", "strength=0.3", "seeds=4"
 	first = study5.study(*words)
 	results = house / "out/study-ensemble-tension/runs"
-	while len(list(results.glob("*.json"))) < 2 or calls(house) < 4: assert first.poll() is None, first.stderr.read()
+	while len(list(results.glob("*.json"))) < 2 or calls(house) < 4:
+		assert first.poll() is None, first.stderr.read()
 	first.send_signal(signal.SIGINT)
 	assert "interrupted: what is complete is kept" in first.communicate(timeout=60)[1] and first.returncode == 130
 	(house / "calls.slow").unlink()
