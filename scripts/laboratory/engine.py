@@ -18,7 +18,7 @@ from pathlib import Path
 
 from . import run
 
-patience = 60.0 #: Seconds after which a cluster without workers counts as gone.
+patience = 180.0 #: Seconds after which a cluster without workers counts as gone.
 attempts = 5 #: So many workers may die of a run, or while it waits for its turn on them.
 ahead = 2 #: Tasks that each worker has: one that is running and one that waits, since asking for the next one takes time.
 
@@ -76,7 +76,7 @@ class Engine:
 		command = [
 			sys.executable, "-m", "distributed.cli.dask_worker", self.cluster.scheduler_address, "--nworkers",
 			str(self.parallel), "--nthreads", "1", "--host", "127.0.0.1", "--no-dashboard", "--dashboard-address", "127.0.0.1:0", "--memory-limit",
-			"0", "--death-timeout", "60"
+			"0", "--death-timeout", "300"
 		]
 		environment = {**os.environ, "DASK_DISTRIBUTED__WORKER__PROFILE__ENABLED": "False", "OMP_NUM_THREADS": "1"}
 		self.workers = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", "--", *command], env=environment, stdin=subprocess.DEVNULL,

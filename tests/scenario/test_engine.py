@@ -124,7 +124,7 @@ def test_encryptedCluster(tmp_path):
 	with open(tmp_path / "log", "w") as log:
 		started = subprocess.Popen([script, folder], env={**os.environ, "BLOCKS_HOST": "127.0.0.1"}, stdout=log, stderr=log, start_new_session=True)
 	try:
-		until = time.monotonic() + 60
+		until = time.monotonic() + 200
 		while not (folder / "scheduler.json").exists() and time.monotonic() < until:
 			time.sleep(0.1)
 		assert oct((folder / "key.pem").stat().st_mode)[-3:] == "600"

@@ -276,19 +276,19 @@ def test_studyGoesOnWhereItWasInterrupted(study5, house):
 	while len(list(results.glob("*.json"))) < 2 or calls(house) < 4:
 		assert first.poll() is None, first.stderr.read()
 	first.send_signal(signal.SIGINT)
-	assert "interrupted: what is complete is kept" in first.communicate(timeout=60)[1] and first.returncode == 130
+	assert "interrupted: what is complete is kept" in first.communicate(timeout=300)[1] and first.returncode == 130
 	(house / "calls.slow").unlink()
 	again = study5.study(*words)
-	out, progress = again.communicate(timeout=60)
+	out, progress = again.communicate(timeout=300)
 	assert again.returncode == 0, progress
 	assert "| tension | peak | MPa | 4 | 0.3 |" in out and "2/2  0:00 left" in progress and calls(house) == 6 # two of four were interrupted
 	found = json.loads((house / "out/study-ensemble-tension/study.json").read_text())
 	assert found["settings"] == {"strength": 0.3, "vtk": False} and found["points"][0]["quantities"]["peak"]["n"] == 4
 	refused = study5.study("ensemble", "tension", "refuse=1", "seeds=2")
-	assert refused.communicate(timeout=60)[1].splitlines()[-1] == "study: every run failed: exit code 1: mine.refuse must not be given"
+	assert refused.communicate(timeout=300)[1].splitlines()[-1] == "study: every run failed: exit code 1: mine.refuse must not be given"
 	assert refused.returncode == 1
 	unknown = study5.study("ensemble", "wood")
-	assert unknown.communicate(timeout=60)[1] == "study: there is no scenario wood\n" and unknown.returncode == 1
+	assert unknown.communicate(timeout=300)[1] == "study: there is no scenario wood\n" and unknown.returncode == 1
 
 
 # ---- errors and fronts
