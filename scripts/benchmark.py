@@ -149,7 +149,7 @@ def points(mode, experiment):
 
 
 def blockPoints(mode, case, lines):
-	experiment, base = case.split()[0], {"vtk": False, **stressOf(case)}
+	experiment, base = case.split()[0], {"vtk": False, "sheets": False, **stressOf(case)}
 	reference = lambda specimen: {**base, **specimen, "steps": slow[mode][experiment] // (2 if specimen else 1)}
 	specimens = []
 	for knob, specimen, way in lines:

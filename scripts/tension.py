@@ -28,12 +28,13 @@ import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import curves, experiments, loading, pictures, scenario
 from yadeblocks.engines import loopList
-from yadeblocks.export import State, writeStates
+from yadeblocks.export import writeFilm
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
+from yadeblocks.snapshot import Film, Snapshot
 from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -56,7 +57,7 @@ stroke, velocity = 0.03e-3, 0.02e-3 # [m], [m/s]
 
 p = scenario.parameters({
 	**scenario.commonParameters(lloyd=0, alpha=0.8, steps=40000), **scenario.usualParameters(
-		units='plain', brickZone=8e-3, merge=0.2, jump=True, servo=False, halfRate=False, vtk=True
+		units='plain', brickZone=8e-3, merge=0.2, jump=True, servo=False, halfRate=False, vtk=True, frames=10, sheets=True
 	), 'size': Key(0.0, 'size of the Voronoi cells; 0: of the case', 'm', (lambda s: 0 <= s < mortarHeight, 'must be smaller than the mortar layer')),
 	'case': Key('TT2', 'properties of the joints, see above',
 			rule=tuple(cases)), 'solver': Key('steps', 'time steps, or from failure to failure', rule=('steps', 'events'))
@@ -97,20 +98,23 @@ def pull(stage, seed, steps):
 	)
 	floor, cracks = 1e-3 * unitJoint['tension'] * area, Cracks(model)
 	stop = loading.Stop(drop=0.5, displacement=2 * stroke)
+	film = Film(model, p.frames if p.vtk else 0)
 	record = Recorder(
 		displacement=gauge, stress=lambda: model.groupForce('top') / area, broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=floor)
 	)
+	record.after(lambda row: film.look(model.groupTravelled('top') / stroke, row.stress, O.time))
 	with Progress(steps, lambda: loadingLine(record.last.displacement, record.last.stress, model), label=stage.label) as progress:
 		record.after(lambda row: progress(O.iter)).after(lambda row: stop(model.groupTravelled('top'), row.stress, row.broken))
 		if p.solver == 'events':
 			path = loading.follow(model, 'top', stage.label, gauges=[gauge], displacement=2 * stroke)
 			record.take(displacement=path['gauges'][0], stress=path['force'] / area, broken=path['cracked'], unbalanced=path['residual'])
 			cracks.began(path['crackPoint'])
-			return model, record, cracks
+			film.look(1, 0, O.time)
+			return model, record, cracks, film
 		stage.keep(record=record, cracks=cracks, stop=stop)
 		if not stage.model: begin(model, steps, floor, record)
 		stage.run()
-	return model, record, cracks
+	return model, record, cracks, film
 
 
 def begin(model, steps, floor, record):
@@ -140,7 +144,7 @@ with Session(p) as session:
 			with session.run(seed) as run:
 				stage = session.stage('seed %d' % seed)
 				with run.stepping():
-					model, record, cracks = pull(stage, seed, p.steps)
+					model, record, cracks, film = pull(stage, seed, p.steps)
 				displacement, stress, broken = record['displacement'], record['stress'], record['broken']
 				strength, peak = curves.peak(displacement, stress)
 				if p.solver == 'events': elastic = np.arange(len(stress)) <= np.argmax(broken > 0) # the first to break is still whole there
@@ -157,7 +161,8 @@ with Session(p) as session:
 				run.quality(unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max())
 			if seed == p.seed:
 				session.picture('cracks.png', pictures.drawCracks, model, title='Couplet in tension, %s, seed %d' % (p.case, seed))
-				if p.vtk: session.later(writeStates, p.folder, State(model, 0, untouched=True), State(model, O.time))
+				if p.sheets: pictures.drawSheets(session, film, model, 'Couplet in tension, %s, seed %d' % (p.case, seed))
+				if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
 		if p.halfRate and session.wants(seed, 'half_rate_change'):
 			slow = pull(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]
 			strength = curves.peak(slow['displacement'], slow['stress'])[0] / 1e6
