@@ -57,10 +57,9 @@ stroke, velocity = 0.03e-3, 0.02e-3 # [m], [m/s]
 
 p = scenario.parameters({
 	**scenario.commonParameters(lloyd=0, alpha=0.8, steps=40000), **scenario.usualParameters(
-		units='plain', brickZone=8e-3, merge=0.2, jump=True, servo=False, halfRate=False, vtk=True, frames=10, sheets=True
+		solver='steps', units='plain', brickZone=8e-3, merge=0.2, jump=True, servo=False, halfRate=False, vtk=True, frames=10, sheets=True
 	), 'size': Key(0.0, 'size of the Voronoi cells; 0: of the case', 'm', (lambda s: 0 <= s < mortarHeight, 'must be smaller than the mortar layer')),
-	'case': Key('TT2', 'properties of the joints, see above',
-			rule=tuple(cases)), 'solver': Key('steps', 'time steps, or from failure to failure', rule=('steps', 'events'))
+	'case': Key('TT2', 'properties of the joints, see above', rule=tuple(cases))
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'tension: solver=events has no rate: servo and halfRate must be false')
 mortarJoint, unitJoint, caseSize, expectedPeak, source = cases[p.case]

@@ -58,6 +58,7 @@ _usual = {
 	"units": Key("plain", "bricks are one elastic block each, or made of Voronoi blocks that could crack", rule=("plain", "voronoi")),
 	"brickZone": Key(8e-3, "size of the zones in plain bricks, mean edge of the blocks in others", "m", positive),
 	"merge": Key(0.1, "edges of Voronoi cells below this fraction of the size are merged", rule=(lambda f: 0 <= f < 1, "must lie in [0, 1)")),
+	"solver": Key("steps", "time steps, or from failure to failure as far as that goes", rule=("steps", "events")),
 	"jump": Key(True, "leap over the elastic part of the loading"),
 	"servo": Key(False, "the unbalanced force sets the speed of loading"),
 	"halfRate": Key(False, "repeat each run at half the loading rate and report the change"),
@@ -80,7 +81,7 @@ def commonParameters(**defaults):
 
 
 def usualParameters(**defaults):
-	"""Keys that more than one scenario has, with these defaults: `units brickZone merge jump servo halfRate vtk frames sheets pressSteps approach sigma stroke`
+	"""Keys that more than one scenario has, with these defaults: `units brickZone merge solver jump servo halfRate vtk frames sheets pressSteps approach sigma stroke`
 	and all the common ones.
 
 	Raises TypeError for a name that is none of them."""
