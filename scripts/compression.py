@@ -44,8 +44,8 @@ velocity = 0.01e-3 # [m/s]
 common = scenario.commonParameters(sizeMeaning='edge', lloyd=3, steps=30000, alpha=0.2)
 del common['size']
 p = scenario.parameters({
-	**common, **scenario.usualParameters(solver='steps', 
-		units='voronoi', stroke=3.6e-3, jump=True, servo=False, merge=0.1, halfRate=False, vtk=True, frames=10, sheets=True
+	**common, **scenario.usualParameters(
+		solver='steps', units='voronoi', stroke=3.6e-3, jump=True, servo=False, merge=0.1, halfRate=False, vtk=True, frames=10, sheets=True
 	), 'unitSize': Key(
 		0.01, 'size of the Voronoi cells of bricks, or of the zones of plain ones', 'm',
 		(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick')

@@ -47,9 +47,8 @@ strength = lambda default, what: Key(default, what + ' of the joints', 'Pa', sce
 angle = lambda default, what: Key(default, what + ' of the joints', 'degrees', (lambda angle: 0 <= angle < 90, 'must lie in [0, 90) degrees'))
 p = scenario.parameters({
 	**scenario.commonParameters(sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2),
-	**scenario.usualParameters(
-		sigma=0.5e6, solver='steps', stroke=1e-3, approach=0.2, jump=True, servo=False, units='plain', brickZone=8e-3, merge=0.1, halfRate=False, vtk=True, frames=10, sheets=True
-	),
+	**scenario.usualParameters(sigma=0.5e6, solver='steps', stroke=1e-3, approach=0.2, jump=True, servo=False),
+	**scenario.usualParameters(units='plain', brickZone=8e-3, merge=0.1, halfRate=False, vtk=True, frames=10, sheets=True),
 	'size': Key(3.5e-3, 'size of the Voronoi cells', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer')),
 	'afterPeak': Key(True, 'go on in time steps behind the peak that solver=events has found'),
 	'kn': Key(400e9, 'normal stiffness of the joints', 'Pa/m', scenario.positive),

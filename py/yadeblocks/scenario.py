@@ -81,8 +81,8 @@ def commonParameters(**defaults):
 
 
 def usualParameters(**defaults):
-	"""Keys that more than one scenario has, with these defaults: `units brickZone merge solver jump servo halfRate vtk frames sheets pressSteps approach sigma stroke`
-	and all the common ones.
+	"""Keys that more than one scenario has, with these defaults: `units brickZone merge solver jump servo halfRate vtk frames sheets pressSteps approach
+	sigma stroke` and all the common ones.
 
 	Raises TypeError for a name that is none of them."""
 	return _chosen({**_common, **_usual}, "that several scenarios have", defaults)
