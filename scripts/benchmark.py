@@ -12,9 +12,10 @@ NAME-MODE.png (error over CPU seconds, and its reading), NAME-MODE.md (table and
 	mode=calibrate  goes on with the calibration of YADE's models (model=NAME: of this one only) from scripts/calibrated.json, and writes it; a report says
 			which calibrations were made with other code, targets, packings or ties than today's
 
-Errors are against the laboratory and against a slow run of the same specimen, whose own convergence is shown by one twice as fast (references of other
-specimens than the usual are half as slow).
-retry=true runs again what failed; jobs=1 keeps processes from slowing each other down, which shows in CPU times.
+Errors are against the laboratory and against a reference of the same specimen: in tension and shear the exact peak (solver=events, which is a point of its
+own as well), in compression a slow run, whose own convergence is shown by one twice as fast (references of other specimens than the usual are half as slow).
+retry=true runs again what failed; jobs=1 keeps processes from slowing each other down, which shows in CPU times. scheduler=HOST:PORT, or a scheduler
+file, has the runs done by a cluster of dask.distributed that is there already.
 """
 import json
 import math
@@ -31,6 +32,7 @@ sys.path.insert(0, str(house / "py"))
 
 import pandas
 from laboratory import calibration, study, tradeoff, tradeoffpicture
+from laboratory.engine import EngineError
 from laboratory.jobs import Job, Jobs, machine, yadeVersion
 from yadeblocks import scenario
 from yadeblocks.experiments import compressiveStrength, expected, peakShearStress, residualShearStress, shearCohesion, shearFriction, youngsModulus
@@ -46,7 +48,8 @@ modelsOf = {
 }
 
 p = scenario.parameters({
-	"mode": "quick", "experiment": "all", "seeds": 5, "jobs": os.cpu_count() or 1, "model": "all", "limit": 1800.0, "retry": False, "out": "out/benchmark"
+	"mode": "quick", "experiment": "all", "seeds": 5, "jobs": os.cpu_count() or 1, "model": "all", "limit": 1800.0, "retry": False, "scheduler": "",
+	"out": "out/benchmark"
 }, {
 	"mode": ("quick", "full", "calibrate"), "experiment": ("all", "tension", "shear", "compression"), "model": ("all", "blocks", *modelsOf["shear"]),
 	"seeds": scenario.atLeastOne, "jobs": scenario.atLeastOne, "limit": scenario.positive
@@ -59,6 +62,7 @@ middlePeak, middleResidual = peakShearStress(sigmas[1])[0], residualShearStress(
 
 slow = { # steps of the reference; half of them show how far it is converged
 	"quick": {"tension": 80000, "shear": 24000, "compression": 30000}, "full": {"tension": 320000, "shear": 96000, "compression": 120000}}
+exact = ("tension", "shear") # whose references are the peaks from event to event; a residual behind them is that of so many steps
 middle = ("tension", "shear 0.5", "compression") # of three stresses one is enough for slow runs of every specimen
 
 
@@ -129,7 +133,7 @@ class Point(NamedTuple):
 	label: str
 	script: str
 	settings: dict
-	slow: Optional[dict] # settings of the reference, None without
+	slow: Optional[dict] # settings of the reference, exact or slow, None without
 	isReference: bool = False
 
 	@property
@@ -150,7 +154,8 @@ def points(mode, experiment):
 
 def blockPoints(mode, case, lines):
 	experiment, base = case.split()[0], {"vtk": False, "sheets": False, **stressOf(case)}
-	reference = lambda specimen: {**base, **specimen, "steps": slow[mode][experiment] // (2 if specimen else 1)}
+	solver = {"solver": "events"} if experiment in exact else {}
+	reference = lambda specimen: {**base, **specimen, **solver, "steps": slow[mode][experiment] // (2 if specimen else 1)}
 	specimens = []
 	for knob, specimen, way in lines:
 		compared = (mode == "full" and case in middle and knob != "one set"
@@ -160,11 +165,15 @@ def blockPoints(mode, case, lines):
 		if compared and specimen not in specimens: specimens.append(specimen)
 	for specimen in specimens:
 		yield Point(
-			case, "blocks", "reference", inWords({"steps": reference(specimen)["steps"], **specimen}), experiment, reference(specimen),
-			reference(specimen), True
+			case, "blocks", "reference", inWords({**solver, **specimen} if solver else {"steps": reference(specimen)["steps"], **specimen}),
+			experiment, reference(specimen), reference(specimen), True
 		)
-	half = {**base, "steps": slow[mode][experiment] // 2}
-	if {} in specimens: yield Point(case, "blocks", "half as slow", inWords({"steps": half["steps"]}), experiment, half, reference({}))
+	if {} not in specimens: return
+	way = {"steps": slow[mode][experiment] // (1 if solver else 2)}
+	yield Point(case, "blocks", "slow" if solver else "half as slow", inWords(way), experiment, {**base, **way}, reference({}))
+	if solver: # behind the peak of shear there are steps, not quite so slow
+		way = {**solver, "steps": slow[mode][experiment] // 4} if experiment == "shear" else solver
+		yield Point(case, "blocks", "solver", inWords(way), experiment, {**base, **way}, reference({}))
 
 
 def yadePoints(mode, case, model, known):
@@ -212,7 +221,7 @@ def inWords(settings):
 	words = {
 		"steps": lambda n: f"{n / 1000:g}k steps", "size": lambda x: f"{1e3 * x:g} mm", "unitSize": lambda x: f"{1e3 * x:g}",
 		"mortarSize": lambda x: f"/ {1e3 * x:g} mm", "radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}",
-		"units": lambda x: f"{x} units", "damping": lambda x: f"{x} damping", "servo": lambda on: "servo"
+		"units": lambda x: f"{x} units", "solver": lambda x: x, "damping": lambda x: f"{x} damping", "servo": lambda on: "servo"
 		if on else "no servo", "jump": lambda on: "jump" if on else "no jump"
 	}
 	return " ".join(words.get(key, lambda x: f"{key} {x}")(value) for key, value in settings.items())
@@ -459,7 +468,7 @@ def interrupt(*_):
 signal.signal(signal.SIGTERM, interrupt)
 signal.signal(signal.SIGINT, interrupt) # also where the shell has it ignored
 plugin = os.environ.get("YADEBLOCKS_PLUGIN", house / "build" / "libyadeblocks.so")
-jobs = Jobs(house, house / p.out, plugin, pluginFree=("spheres", ), limit=p.limit, parallel=p.jobs, retry=p.retry)
+jobs = Jobs(house, house / p.out, plugin, pluginFree=("spheres", ), limit=p.limit, parallel=p.jobs, retry=p.retry, scheduler=p.scheduler)
 everything = {} if p.mode == "calibrate" else {
 	experiment: [point for point in points(p.mode, experiment) if p.model in ("all", point.model)] for experiment in experiments
 }
@@ -469,7 +478,8 @@ if p.mode == "calibrate" and not any(p.model in ("all", *modelsOf[experiment])
 stopped = False
 try:
 	if p.mode == "calibrate":
-		calibrateAll(jobs)
+		with jobs:
+			calibrateAll(jobs)
 		sys.exit()
 	jobs.do([
 		Job(point.script, point.settings, seed) for seed in range(1, p.seeds + 1) for all in everything.values() for point in all if seed in point.seeds
@@ -477,6 +487,8 @@ try:
 except KeyboardInterrupt:
 	print("interrupted: what is complete is kept; the same command continues", file=sys.stderr)
 	stopped = True
+except EngineError as error:
+	sys.exit(f"benchmark: {error}")
 for experiment, all in everything.items():
 	if all: report(jobs, experiment, all) # model= may leave nothing
 sys.exit(130 if stopped else 0)

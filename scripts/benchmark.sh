@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/setup.sh --brief python3-scipy
+scripts/setup.sh --brief python3-scipy python3-distributed
 
 [ -v HOME ] || export HOME=~ # YADE does not start without
 # Debian's own Python, for which setup.sh installs numpy, scipy, pandas and matplotlib

@@ -9,8 +9,11 @@ force by its area, strain its path by the height.
 
 Expected: strength 27.5 N/mm2, modulus 4100 N/mm2 (fitted between 5 % and 33 % of the strength), vertical splitting of the bricks.
 Size means the mean edge length, as in UDEC, unless sizeMeaning=sqrtArea. Tables 8 and 9 give a residual cohesion and no residual
-friction: residualFriction=zero takes that literally, kept leaves the friction angle as it is. units=plain makes each brick one block
-that cannot crack.
+friction: residualFriction=zero takes that literally, kept leaves the friction angle as it is.
+joints=calibrated takes joints that soften, with strengths of `strengths` times those of Tables 8 and 9 and fracture energies GfI and GfII [N/m], alike in
+bricks and mortar; the run then goes on until the stress has fallen to 20 % of its peak, and `postpeak_energy` is stress times shortening from the peak to
+there. units=plain makes each brick one block that cannot crack.
+cells=triangles fills the layers with triangular blocks; edgeSegments=n makes n joints of every edge, so that contact points lie inside edges too.
 halfRate=true repeats every run at half the loading rate and reports the change of the strength.
 solver=events goes from failure to failure (BlockModel.follow) as long as displacements are small, and in time steps from there on. It says where that was.
 """
@@ -20,7 +23,7 @@ import numpy as np
 
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import curves, experiments, loading, pictures, scenario
+from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
 from yadeblocks.engines import loopList
 from yadeblocks.export import writeFilm
 from yadeblocks.progress import Progress, loadingLine
@@ -29,7 +32,7 @@ from yadeblocks.results import Cracks, engineCosts
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
 from yadeblocks.snapshot import Film, Snapshot
-from yadeblocks.specimen import Gauge, nodesWhere, rectangle
+from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
 # ---- parameters (SI)
 
@@ -39,25 +42,36 @@ brick = dict(young=20e9, poisson=0.2, density=2000) # Table 7
 mortar = dict(young=5.8e9, poisson=0.2, density=2000)
 mortarJoint = dict(kn=348e9, ks=174e9, frictionAngle=radians(15), cohesion=1.4e6, cohesionResidual=0.28e6, tension=0.7e6) # Table 8, also brick to mortar
 brickJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, cohesionResidual=3e6, tension=7.5e6) # Table 9
+sets = {'paper': {'strengths': 1.0, 'GfI': 0.0, 'GfII': 0.0}, 'calibrated': {'strengths': 0.5, 'GfI': 100.0, 'GfII': 1000.0}}
 velocity = 0.01e-3 # [m/s]
 
 common = scenario.commonParameters(sizeMeaning='edge', lloyd=3, steps=30000, alpha=0.2)
 del common['size']
 p = scenario.parameters({
 	**common, **scenario.usualParameters(
-		solver='steps', units='voronoi', stroke=3.6e-3, jump=True, servo=False, merge=0.1, halfRate=False, vtk=True, frames=10, sheets=True
+		units='voronoi', cells='voronoi', edgeSegments=1, stroke=3.6e-3, solver='steps', jump=True, servo=False, merge=0.1, halfRate=False, vtk=True, frames=10,
+		sheets=True
 	), 'unitSize': Key(
 		0.01, 'size of the Voronoi cells of bricks, or of the zones of plain ones', 'm',
 		(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick')
 	), 'mortarSize': Key(
 		0.003, 'size of the Voronoi cells of mortar', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than a mortar joint')
-	), 'residualFriction': Key('zero', 'friction of broken joints: none, or as before', rule=('zero', 'kept')),
-	'width': Key(0.285, 'width of the prism', 'm', scenario.positive)
+	), 'residualFriction': Key('zero', 'friction of broken joints: none, or as before',
+					rule=('zero', 'kept')), 'width': Key(0.285, 'width of the prism', 'm', scenario.positive),
+	'joints': Key('paper', 'brittle joints of Tables 8 and 9, or joints that soften',
+			rule=tuple(sets)), **softening.jointKeys(*sets['paper']), **softening.scatterKeys
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'compression: solver=events has no rate: servo and halfRate must be false')
 if p.residualFriction == 'zero':
 	mortarJoint['frictionAngleResidual'] = brickJoint['frictionAngleResidual'] = 0
-area = p.width * thickness
+for key, value in sets[p.joints].items():
+	if getattr(p, key) == -1: setattr(p, key, value)
+softening.takeScatter(p)
+softens = p.GfI > 0
+scenario.require(p.solver == 'steps' or not softens, 'compression: solver=events knows brittle joints only, got GfI=%g' % p.GfI)
+for joint in mortarJoint, brickJoint:
+	joint.update({name: p.strengths * joint[name] for name in ('cohesion', 'cohesionResidual', 'tension')}, GfI=p.GfI, GfII=p.GfII)
+area, last = p.width * thickness, 0.2 if softens else 0.5 # a run ends at this share of the strength
 
 
 def build(seed):
@@ -70,7 +84,9 @@ def build(seed):
 		label, size, thick = ('mortar', p.mortarSize, mortarHeight) if layer % 2 else ('unit', p.unitSize, brickHeight)
 		outline = rectangle(0, y, p.width, y + thick)
 		if label == 'unit' and p.units == 'plain': model.addRegion(outline, label, zoneSize=size)
-		else: model.addVoronoi(outline, label, size=size, sizeMeaning=p.sizeMeaning, lloyd=p.lloyd, seed=1000 * seed + layer, mergeFraction=p.merge)
+		else:
+			options = dict(lloyd=p.lloyd, seed=1000 * seed + layer, mergeFraction=p.merge, edgeSegments=p.edgeSegments)
+			addCells(model, p.cells, outline, label, size=size, sizeMeaning=p.sizeMeaning, **options)
 		y += thick
 	joints = [
 		JointMat(material1='unit', material2='unit', **brickJoint),
@@ -78,6 +94,7 @@ def build(seed):
 		JointMat(material1='unit', material2='mortar', **mortarJoint)
 	]
 	model.bond(joints)
+	softening.scatterStrengths(model, p, seed)
 	bottom = nodesWhere(model, lambda x, y: y < 1e-9)
 	model.drive('bottom', bottom, 'y')
 	model.drive('centre', bottom[abs(model.reference[bottom, 0] - p.width / 2).argmin()], 'x') # keeps the prism from drifting sideways
@@ -87,13 +104,13 @@ def build(seed):
 
 
 def crush(stage, seed, steps):
-	"""Presses until the stress has fallen to half the strength. The model; the recorder of strain, stress [Pa], lateral strain of the middle brick, broken
-	contact points and unbalanced ratio; the cracks."""
+	"""Presses until the stress has fallen to half the strength, or a fifth where joints soften. The model; the recorder of strain, stress [Pa], lateral
+	strain of the middle brick, broken contact points and unbalanced ratio; the cracks."""
 	model = stage.model or build(seed)
 	middle = lambda x, y: abs(y - height / 2) < brickHeight / 2
 	left, right = nodesWhere(model, lambda x, y: middle(x, y) & (x < 1e-9)), nodesWhere(model, lambda x, y: middle(x, y) & (x > p.width - 1e-9))
 	floor, cracks = 1e-3 * mortarJoint['tension'] * area, Cracks(model)
-	stop = loading.Stop(drop=0.5, displacement=p.stroke)
+	stop = loading.Stop(drop=last, displacement=p.stroke)
 	wider = Gauge(model, left, right, 'x')
 	film = Film(model, p.frames if p.vtk else 0)
 	record = Recorder(
@@ -114,7 +131,7 @@ def crush(stage, seed, steps):
 def begin(model, steps, floor, record, wider, cracks, label):
 	"""The engines, and the way to the first crack."""
 	servo = dict(groups=['platen'], floor=floor) if p.servo else None
-	O.dt = p.stroke / velocity / steps
+	O.dt, O.trackEnergy = p.stroke / velocity / steps, softens
 	O.engines = loopList(contact=True, servo=servo, damping=p.damping, alpha=p.alpha, safety=p.safety) # broken joints may slide on, part and meet again
 	if p.solver == 'events':
 		path = loading.follow(model, 'platen', label, gauges=[wider], release='cascade', displacement=p.stroke)
@@ -150,6 +167,13 @@ with Session(p) as session:
 				run.add('compressive_strength', 'MPa', strength / 1e6, *experiments.compressiveStrength)
 				slope = lambda column: np.polyfit(strain[elastic], column[elastic], 1)[0] if elastic.sum() > 1 else np.nan
 				run.add('youngs_modulus', 'MPa', slope(stress) / 1e6, *experiments.youngsModulus)
+				if softens:
+					run.add(
+						'postpeak_energy', 'N/mm', 1e-3 * curves.behindPeak(height * strain, stress, last),
+						*experiments.compressiveFractureEnergy
+					)
+					for cause, energy in energies.dissipated().items():
+						run.add('dissipated_' + cause, 'J', energy)
 				run.add('strain_at_peak', '1', strain[peak])
 				run.add('lateral_strain_at_peak', '1', lateral[peak])
 				run.add('lateral_by_vertical_strain', '1', slope(lateral))

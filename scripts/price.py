@@ -24,7 +24,7 @@ import yadeblocks
 from yade import *
 from yadeblocks import scenario
 from yadeblocks.checkpoint import sceneModel
-from yadeblocks.engines import addBehindForces, contactEngines, engineList, find
+from yadeblocks.engines import addBehindForces, engineList, find, loopList
 from yadeblocks.recording import Recorder, runner
 from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 
@@ -49,18 +49,27 @@ mortarJoint = dict(kn=348e9, ks=174e9, frictionAngle=radians(15), frictionAngleR
 unitJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), frictionAngleResidual=0, cohesion=15e6, cohesionResidual=3e6, tension=7.5e6)
 
 
-def engines(unitToUnit, mortarToOthers, alpha):
-	"""The bare time step: no feature but large displacements and local damping."""
-	joints = [
+def joints(unitToUnit, mortarToOthers):
+	return [
 		JointMat(material1='unit', material2='unit', **unitToUnit),
 		JointMat(material1='mortar', material2='mortar', **mortarToOthers),
 		JointMat(material1='unit', material2='mortar', **mortarToOthers)
 	]
-	return engineList(joints, alpha=alpha, watchPeriod=0)
+
+
+def bareLoop(alpha):
+	"""The bare time step: no feature but large displacements and local damping."""
+	O.engines = loopList(alpha=alpha, watchPeriod=0)
+
+
+def native(model):
+	"""The same step through YADE's InteractionLoop."""
+	alpha = find('BlockMotion').alpha
+	O.engines = engineList([], contact=find('BlockLoop').contact, alpha=alpha, watchPeriod=0)
 
 
 def addGeneralContact():
-	O.engines = contactEngines() + O.engines
+	find('BlockLoop').contact = True
 
 
 def tension():
@@ -72,12 +81,12 @@ def tension():
 	model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=2e-3, lloyd=1, seed=1, mergeFraction=0.1)
 	model.addRegion(rectangle(0, 0, length, low), 'unit', zoneSize=8e-3)
 	model.addRegion(rectangle(0, high, length, high + low), 'unit', zoneSize=8e-3)
-	model.bond()
+	model.bond(joints(joint, joint))
 	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
 	model.drive('top', nodesWhere(model, lambda x, y: y > high + low - 1e-9), 'y', velocity=0.02e-3, rampTime=0.05)
 	model.insert()
 	O.dt = 1.5 / 10000
-	O.engines = engines(joint, joint, 0.3)
+	bareLoop(0.3)
 	return model
 
 
@@ -91,14 +100,14 @@ def compression():
 		label, size, thick = ('mortar', 3e-3, 0.01) if layer % 2 else ('unit', 0.01, 0.05)
 		model.addVoronoi(rectangle(0, y, width, y + thick), label, size=size, sizeMeaning='edge', lloyd=3, seed=1000 + layer, mergeFraction=0.1)
 		y += thick
-	model.bond()
+	model.bond(joints(unitJoint, mortarJoint))
 	bottom = nodesWhere(model, lambda x, y: y < 1e-9)
 	model.drive('bottom', bottom, 'y')
 	model.drive('centre', bottom[abs(model.reference[bottom, 0] - width / 2).argmin()], 'x')
 	model.drive('platen', nodesWhere(model, lambda x, y: y > 0.29 - 1e-9), 'y', velocity=-0.01e-3, rampTime=18)
 	model.insert()
 	O.dt = 360 / 10000
-	O.engines = engines(unitJoint, mortarJoint, 0.2)
+	bareLoop(0.2)
 	return model
 
 
@@ -136,10 +145,16 @@ def save(name, model):
 # ---- the features
 
 
-def setJoints(**values):
-	for interaction in O.interactions:
-		for name, value in values.items():
-			setattr(interaction.phys, name, value)
+def softenAFifth(model):
+	"""Joints that soften, a fifth of which have less tensile strength than stress, so that they begin to in the next step."""
+	model.setJoints(GfI=1000, GfII=1e4)
+	stress = np.reshape(model.pointSigma, (-1, 2)).min(axis=1)
+	chosen = np.argsort(stress)[-len(stress) // 5:]
+	model.setJoints(chosen[stress[chosen] > 0], tension=0.95 * stress[chosen[stress[chosen] > 0]])
+
+
+def addCap(model):
+	model.setJoints(GfI=1000, GfII=1e4, capStrength=1e9, capFirst=1e9, capResidual=1e9, capPeakClosure=1e-3, capEnergy=1e6, capShear=9)
 
 
 def addGauge(model):
@@ -162,14 +177,19 @@ class Row:
 
 
 rows = [
-	Row('general contact (collider + BlockContacts)', lambda model: addGeneralContact()),
+	Row('general contact', lambda model: addGeneralContact()),
+	Row("YADE's InteractionLoop", native),
 	Row('small strain instead of large displacement', lambda model: setattr(model, 'smallStrain', True)),
-	Row('dilation', lambda model: setJoints(frictionAngleResidual=radians(4), dilationAngle=radians(4))), # it may not exceed it
-	Row('residual friction', lambda model: setJoints(frictionAngleResidual=radians(30))),
+	Row('dilation', lambda model: model.setJoints(frictionAngleResidual=radians(4), dilationAngle=radians(4))), # it may not exceed it
+	Row('residual friction', lambda model: model.setJoints(frictionAngleResidual=radians(30))),
+	Row('joints that soften, none does', lambda model: model.setJoints(GfI=1000, GfII=1e4)),
+	Row('joints that soften, up to a fifth do', softenAFifth),
+	Row('joints that soften, with a cap, none yields', addCap),
+	Row('strengths that scatter', lambda model: model.scatterStrengths(cov=0.01)),
 	Row('gravity (dead loads)', lambda model: model.gravity((0, -9.81))),
-	Row('adaptive damping instead of local', lambda model: setattr(find('BlockIntegrator'), 'damping', 'adaptive')),
-	Row('no damping instead of local', lambda model: setattr(find('BlockIntegrator'), 'damping', 'none')),
-	Row('stability watch, every %d steps' % lookEvery, lambda model: setattr(find('BlockIntegrator'), 'watchPeriod', lookEvery)),
+	Row('adaptive damping instead of local', lambda model: setattr(find('BlockMotion'), 'damping', 'adaptive')),
+	Row('no damping instead of local', lambda model: setattr(find('BlockMotion'), 'damping', 'none')),
+	Row('stability watch, every %d steps' % lookEvery, lambda model: setattr(find('BlockMotion'), 'watchPeriod', lookEvery)),
 	Row('energy accounts (O.trackEnergy)', lambda model: setattr(O, 'trackEnergy', True)),
 	Row('crack recorder, every step', lambda model: addBehindForces(BlockCrackRecorder())),
 	Row('gauge in a PyRunner, every %d steps' % recordEvery, addGauge),
@@ -183,6 +203,7 @@ features = { # where their code is
 	'rigid blocks': Feature(r'Rigid(Bodies|Blocks?)\.', r'\b[rR]igid'),
 	'dilation': Feature(lines='[dD]ilation|uplift'),
 	'residual friction': Feature(lines='[rR]esidual'),
+	'joints that soften': Feature(r'Softening\w*\.', r'[sS]often|anyCap|beyondCap'),
 	'small strain': Feature(lines='smallStrain|Strain::small'),
 	'dead loads': Feature(lines=r'\bload\b|loadWork'),
 	'adaptive damping': Feature(lines='adaptive|viscous'),

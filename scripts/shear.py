@@ -8,20 +8,26 @@ top edge by its area, displacement the mean slip across the mortar layer.
 	scripts/run.sh shear [sigma=0.1e6|0.5e6|1e6] [key=value ...]        about 7 s a seed
 
 Expected: peak 0.87 + 1.01 sigma, residual 0.73 sigma (N/mm2): the experiment's cohesion, friction and residual friction.
+joints=measured takes joints that soften with what was measured and nothing fitted (yadeblocks.softening), joints=calibrated a set that was fitted to the three
+peaks (scripts/calibrated-softening.json has the search); scatter= is the coefficient of variation of the joints' strengths, scatterLength= [m] their field's
+correlation length.
+
 Size means sqrt(mean area) unless sizeMeaning=edge. Loading starts at the first crack (jump) and is a fifth as fast as said (approach) until the peak is passed;
-servo=true lets the unbalanced force set the speed instead. kn, ks, cohesion, tension, friction and residualFriction (Table 5) show what governs the result.
+servo=true lets the unbalanced force set the speed instead. kn, ks, cohesion, tension, friction, residualFriction, dilation (angles in degrees), GfI and
+GfII [N/m] show what governs the result; what is not given is that of the joints' set, Table 5 by default.
 units=voronoi makes bricks of blocks, with edges of brickZone, that could crack; plain ones are one elastic block with zones of that size.
+cells=triangles fills the layers with triangular blocks; edgeSegments=n makes n joints of every edge, so that contact points lie inside edges too.
 halfRate=true repeats every run at half the loading rate and reports the change of the peak.
 solver=events goes from failure to failure up to the peak (BlockModel.follow) and in time steps from there on; afterPeak=false ends at the peak,
 without a residual.
 """
-from math import radians
+from math import atan, degrees, radians
 
 import numpy as np
 
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import curves, experiments, loading, pictures, scenario
+from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
 from yadeblocks.engines import loopList
 from yadeblocks.export import writeFilm
 from yadeblocks.progress import Progress, loadingLine
@@ -30,37 +36,51 @@ from yadeblocks.results import Cracks, engineCosts
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
 from yadeblocks.snapshot import Film, Snapshot
-from yadeblocks.specimen import Gauge, nodesWhere, rectangle
+from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
 # ---- parameters (SI)
 
 length, brickHeight, thickness, mortarHeight = 0.2, 0.05, 0.05, 0.015 # [m]
 brick = dict(young=16.7e9, poisson=0.2, density=1900) # Table 4
 mortar = dict(young=2.974e9, poisson=0.2, density=3250)
+residualFriction = degrees(atan(experiments.residualFriction))
+sets = { # all joints alike; angles in degrees
+	'paper': dict(kn=400e9, ks=200e9, cohesion=3e6, tension=1.5e6, friction=45., residualFriction=36., dilation=0., GfI=0., GfII=0.), # Table 5
+	'measured': dict(
+		friction=degrees(softening.measured['frictionAngle']), residualFriction=residualFriction, dilation=0.,
+		**{name: softening.measured[name]
+	for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII')}
+	),
+	'calibrated':
+	dict(kn=400e9, ks=200e9, cohesion=1.25e6, tension=0.5e6, friction=50., residualFriction=residualFriction, dilation=0., GfI=20., GfII=150.),
+}
 brickJoint = dict(
 	kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6
 ) # with units=voronoi; Table 9, since none is given for these bricks
 velocity = 0.2e-3 # [m/s]
 pressSteps = 2000
 
-strength = lambda default, what: Key(default, what + ' of the joints', 'Pa', scenario.notNegative)
-angle = lambda default, what: Key(default, what + ' of the joints', 'degrees', (lambda angle: 0 <= angle < 90, 'must lie in [0, 90) degrees'))
 p = scenario.parameters({
-	**scenario.commonParameters(sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2),
-	**scenario.usualParameters(sigma=0.5e6, solver='steps', stroke=1e-3, approach=0.2, jump=True, servo=False),
-	**scenario.usualParameters(units='plain', brickZone=8e-3, merge=0.1, halfRate=False, vtk=True, frames=10, sheets=True),
+	**scenario.commonParameters(sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2), **scenario.usualParameters(
+		sigma=0.5e6, stroke=1e-3, approach=0.2, solver='steps', jump=True, servo=False, units='plain', cells='voronoi', edgeSegments=1,
+		brickZone=8e-3, merge=0.1, halfRate=False, vtk=True, frames=10,
+		sheets=True
+	), 'afterPeak': Key(True, 'go on behind the peak, to the residual stress'),
 	'size': Key(3.5e-3, 'size of the Voronoi cells', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer')),
-	'afterPeak': Key(True, 'go on in time steps behind the peak that solver=events has found'),
-	'kn': Key(400e9, 'normal stiffness of the joints', 'Pa/m', scenario.positive),
-	'ks': Key(200e9, 'shear stiffness of the joints', 'Pa/m', scenario.positive),
-	'cohesion': strength(3e6, 'cohesion'),
-	'tension': strength(1.5e6, 'tensile strength'),
-	'friction': angle(45.0, 'friction angle'),
-	'residualFriction': angle(36.0, 'friction angle after failure') # Table 5, all joints
+	'joints': Key('paper', 'brittle joints of Table 5, or joints that soften',
+			rule=tuple(sets)), **softening.jointKeys(*sets['paper']), **softening.scatterKeys
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'shear: solver=events has no rate: servo and halfRate must be false')
 scenario.require(p.afterPeak or p.solver == 'events', 'shear: afterPeak=false needs solver=events, got solver=steps')
-joint = dict(kn=p.kn, ks=p.ks, frictionAngle=radians(p.friction), frictionAngleResidual=radians(p.residualFriction), cohesion=p.cohesion, tension=p.tension)
+for key, value in sets[p.joints].items():
+	if getattr(p, key) == -1: setattr(p, key, value)
+softening.takeScatter(p)
+softens = p.GfI > 0
+scenario.require(p.solver == 'steps' or not softens, 'shear: solver=events knows brittle joints only, got GfI=%g' % p.GfI)
+joint = dict(
+	kn=p.kn, ks=p.ks, frictionAngle=radians(p.friction), frictionAngleResidual=radians(p.residualFriction), dilationAngle=radians(p.dilation),
+	cohesion=p.cohesion, tension=p.tension, GfI=p.GfI, GfII=p.GfII
+)
 area, low, high = length * thickness, brickHeight, brickHeight + mortarHeight
 peakExpected, residualExpected = experiments.peakShearStress(p.sigma), experiments.residualShearStress(p.sigma)
 
@@ -71,13 +91,15 @@ def build(seed, dt):
 	O.materials.append(BlockMat(label='unit', **brick))
 	O.materials.append(BlockMat(label='mortar', **mortar))
 	model = BlockModel(thickness=thickness, planeStress=p.plane == 'stress')
-	model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=p.size, sizeMeaning=p.sizeMeaning, lloyd=p.lloyd, seed=seed, mergeFraction=p.merge)
+	options = dict(lloyd=p.lloyd, seed=seed, mergeFraction=p.merge, edgeSegments=p.edgeSegments)
+	addCells(model, p.cells, rectangle(0, low, length, high), 'mortar', size=p.size, sizeMeaning=p.sizeMeaning, **options)
 	for number, outline in enumerate((rectangle(0, 0, length, low), rectangle(0, high, length, high + brickHeight))):
 		if p.units == 'plain': model.addRegion(outline, 'unit', zoneSize=p.brickZone)
-		else: model.addVoronoi(outline, 'unit', size=p.brickZone, lloyd=3, seed=1000 * seed + number)
+		else: model.addVoronoi(outline, 'unit', size=p.brickZone, lloyd=3, seed=1000 * seed + number, edgeSegments=p.edgeSegments)
 	joints = [JointMat(material1=a, material2='mortar', **joint) for a in ('mortar', 'unit')]
 	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **brickJoint))
 	model.bond(joints)
+	softening.scatterStrengths(model, p, seed)
 	top = nodesWhere(model, lambda x, y: y > high + brickHeight - 1e-9)
 	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
 	model.push('press', top, 'y', force=-p.sigma * area, rampTime=pressSteps * dt)
@@ -87,8 +109,8 @@ def build(seed, dt):
 
 
 def shear(stage, seed, steps):
-	"""Presses, then shears over the whole stroke. The model; the recorder of displacement [m], stress [Pa], uplift [m], broken contact points and
-	unbalanced ratio; the cracks."""
+	"""Presses, then shears over the whole stroke. The model; the recorder of displacement [m], stress [Pa], uplift [m], broken contact points,
+	those that are not elastic any more, and unbalanced ratio; the cracks."""
 	dt = p.stroke / velocity / steps
 	model = stage.model or build(seed, dt)
 	below, above = nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit')
@@ -97,14 +119,14 @@ def shear(stage, seed, steps):
 	film = Film(model, p.frames if p.vtk else 0)
 	record = Recorder(
 		displacement=slip, stress=lambda: model.groupForce('shear') / area, uplift=uplift, broken=cracks.look,
-		unbalanced=lambda: model.unbalancedRatio(floor=floor)
+		yielded=lambda: np.count_nonzero(model.pointStatus), unbalanced=lambda: model.unbalancedRatio(floor=floor)
 	)
 	if not stage.model: press(model, dt, floor)
 	approach = None if p.servo else loading.Approach(model, 'shear', p.approach) # one of them sets the speed
 	stop = loading.Stop(displacement=p.stroke)
 	with Progress(steps, lambda: loadingLine(record.last.displacement, record.last.stress, model), label=stage.label) as progress:
 		record.after(lambda row: film.look(model.groupTravelled('shear') / p.stroke, row.stress, O.time))
-		if approach: record.after(lambda row: approach(row.stress, row.broken))
+		if approach: record.after(lambda row: approach(row.stress, row.yielded))
 		record.after(lambda row: stop(model.groupTravelled('shear'), row.stress, row.broken))
 		record.after(lambda row: progress(int(steps * model.groupTravelled('shear') / p.stroke)))
 		stage.keep(record=record, cracks=cracks, approach=approach, stop=stop)
@@ -114,7 +136,7 @@ def shear(stage, seed, steps):
 				up = slice(path['force'].argmax() + 1)
 				record.take(
 					displacement=path['gauges'][0][up], stress=path['force'][up] / area, uplift=path['gauges'][1][up],
-					broken=path['cracked'][up], unbalanced=path['residual']
+					broken=path['cracked'][up], yielded=path['cracked'][up], unbalanced=path['residual']
 				)
 				cracks.began(path['crackPoint'])
 				film.look(1, record.last.stress, O.time)
@@ -131,7 +153,7 @@ def shear(stage, seed, steps):
 def press(model, dt, floor):
 	"""The engines, the precompression, and the top edge set in motion."""
 	servo = dict(groups=['shear'], floor=floor) if p.servo else None
-	O.dt = dt
+	O.dt, O.trackEnergy = dt, softens
 	O.engines = loopList(contact=True, servo=servo, damping=p.damping, alpha=p.alpha, safety=p.safety) # broken joints may slide on, part and meet again
 	if p.solver == 'steps':
 		O.run(1, True)
@@ -159,6 +181,10 @@ with Session(p) as session:
 				run.add('cracks_at_peak', '1', broken[peak])
 				run.add('crack_share_unit-mortar', '1', cracks.share('unit-mortar'))
 				run.add('uplift', 'mm', uplift[-1] * 1e3)
+				if softens:
+					run.add('crack_length', '1', (cracks.areas * model.pointDamage).sum() / area) # by damage, over the section
+					for cause, energy in energies.dissipated().items():
+						run.add('dissipated_' + cause, 'N/m', energy / area)
 				run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, uplift_mm=1e3 * uplift, broken=broken)
 				run.model(model, steps=O.iter, **engineCosts(model, O.iter))
 				run.quality(unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max())

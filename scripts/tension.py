@@ -11,12 +11,19 @@ Two clay bricks, 100 x 50 x 50 mm, and a mortar joint of 15 mm made of Voronoi b
 	TT2b  Table 2 for all joints: the other way to make them equal, about 0.5 N/mm2
 	TT3   TT2 with blocks of 6 mm: 0.43 N/mm2
 
+	joints=measured      joints that soften, all alike, with what was measured and nothing fitted (yadeblocks.softening)
+
+With it, the case only says the size, and the run goes on until the stress has fallen to 1 % of its peak, so that `fracture_energy` is that of the section.
+scatter= is the strengths' coefficient of variation, scatterLength= [m] their field's correlation length; tension, cohesion, GfI and GfII [SI] show what governs
+the result.
+
 Size means the mean edge, as in UDEC, unless sizeMeaning=sqrtArea. The stiffness across the layer should be that of the series
 1/K = h/E' + h/(0.92 kn s) + 1/kn, with s = sqrt(mean area) = 1.61 edges and E' = E/(1 - nu^2) in plane strain.
 
 Once the peak is passed the crack runs by itself, whatever the rate: inertia, which is that of scaled masses, limits its speed, and what
 oscillates behind it tears mortar joints beside its path. alpha=0.8 keeps that down (0.3 moves 8 % of TT1's cracks into the mortar).
 units=voronoi makes bricks of blocks, with edges of brickZone, that could crack; plain ones are one elastic block with zones of that size.
+cells=triangles fills the layers with triangular blocks; edgeSegments=n makes n joints of every edge, so that contact points lie inside edges too.
 halfRate=true repeats every run at half the loading rate and reports the change of the peak.
 solver=events goes from failure to failure instead of in time steps (BlockModel.follow): no rate, damping or mass.
 """
@@ -26,7 +33,7 @@ import numpy as np
 
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import curves, experiments, loading, pictures, scenario
+from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
 from yadeblocks.engines import loopList
 from yadeblocks.export import writeFilm
 from yadeblocks.progress import Progress, loadingLine
@@ -35,7 +42,7 @@ from yadeblocks.results import Cracks, engineCosts
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
 from yadeblocks.snapshot import Film, Snapshot
-from yadeblocks.specimen import Gauge, nodesWhere, rectangle
+from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
 # ---- parameters (SI)
 
@@ -53,16 +60,28 @@ cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [M
 	'TT2b': (table2, table2, 2e-3, None, None),
 	'TT3': (table3, table3, 6e-3, *experiments.tensileStrengthOfPaper[6e-3]),
 }
-stroke, velocity = 0.03e-3, 0.02e-3 # [m], [m/s]
+softeningSets = {'measured': softening.measured} # all joints alike
+stroke, velocity, faster = 0.03e-3, 0.02e-3, 10 # [m], [m/s]; so many times as fast behind the peak, where joints soften
 
 p = scenario.parameters({
 	**scenario.commonParameters(lloyd=0, alpha=0.8, steps=40000), **scenario.usualParameters(
-		solver='steps', units='plain', brickZone=8e-3, merge=0.2, jump=True, servo=False, halfRate=False, vtk=True, frames=10, sheets=True
+		units='plain', cells='voronoi', edgeSegments=1, brickZone=8e-3, merge=0.2, solver='steps', jump=True, servo=False, halfRate=False, vtk=True, frames=10,
+		sheets=True
 	), 'size': Key(0.0, 'size of the Voronoi cells; 0: of the case', 'm', (lambda s: 0 <= s < mortarHeight, 'must be smaller than the mortar layer')),
-	'case': Key('TT2', 'properties of the joints, see above', rule=tuple(cases))
+	'case': Key('TT2', 'properties of brittle joints, see above',
+			rule=tuple(cases)), 'joints': Key('paper', 'brittle joints of the case, or joints that soften', rule=('paper', *softeningSets)),
+	**softening.jointKeys('tension', 'cohesion', 'GfI', 'GfII'), **softening.scatterKeys
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'tension: solver=events has no rate: servo and halfRate must be false')
+scenario.require(p.solver == 'steps' or p.joints == 'paper', 'tension: solver=events knows brittle joints only, got joints=' + p.joints)
 mortarJoint, unitJoint, caseSize, expectedPeak, source = cases[p.case]
+softens = p.joints != 'paper'
+if softens:
+	mortarJoint = unitJoint = dict(softeningSets[p.joints])
+	expectedPeak, source = experiments.tensileStrength
+given = {key: getattr(p, key) for key in ('tension', 'cohesion', 'GfI', 'GfII') if getattr(p, key) != -1}
+mortarJoint, unitJoint = {**mortarJoint, **given}, {**unitJoint, **given}
+softening.takeScatter(p)
 p.size = p.size or caseSize
 area, duration = length * thickness, stroke / velocity
 
@@ -74,13 +93,15 @@ def build(seed):
 	O.materials.append(BlockMat(label='mortar', **mortar))
 	low, high = brickHeight, brickHeight + mortarHeight
 	model = BlockModel(thickness=thickness, planeStress=p.plane == 'stress')
-	model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=p.size, sizeMeaning=p.sizeMeaning, lloyd=p.lloyd, seed=seed, mergeFraction=p.merge)
+	options = dict(lloyd=p.lloyd, seed=seed, mergeFraction=p.merge, edgeSegments=p.edgeSegments)
+	addCells(model, p.cells, rectangle(0, low, length, high), 'mortar', size=p.size, sizeMeaning=p.sizeMeaning, **options)
 	for number, outline in enumerate((rectangle(0, 0, length, low), rectangle(0, high, length, high + brickHeight))):
 		if p.units == 'plain': model.addRegion(outline, 'unit', zoneSize=p.brickZone)
-		else: model.addVoronoi(outline, 'unit', size=p.brickZone, lloyd=3, seed=1000 * seed + number)
+		else: model.addVoronoi(outline, 'unit', size=p.brickZone, lloyd=3, seed=1000 * seed + number, edgeSegments=p.edgeSegments)
 	joints = [JointMat(material1='mortar', material2='mortar', **mortarJoint), JointMat(material1='unit', material2='mortar', **unitJoint)]
 	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **brickJoint))
 	model.bond(joints)
+	softening.scatterStrengths(model, p, seed)
 	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
 	model.drive('top', nodesWhere(model, lambda x, y: y > high + brickHeight - 1e-9), 'y', velocity=velocity, rampTime=0.05 * duration)
 	model.insert()
@@ -88,39 +109,51 @@ def build(seed):
 
 
 def pull(stage, seed, steps):
-	"""Loads until the stress has fallen to half the peak. The model; the recorder of displacement [m], stress [Pa], broken contact points and
-	unbalanced ratio; the cracks."""
+	"""Loads until the stress has fallen to half the peak, or to 1 % of it where joints soften: then up to ten times as fast once the peak is passed.
+	The model; the recorder of displacement [m], stress [Pa], broken contact points, those that are not elastic any more, unbalanced ratio; the cracks."""
 	model = stage.model or build(seed)
 	low, high = brickHeight, brickHeight + mortarHeight
 	gauge = Gauge(
 		model, below=nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), above=nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit')
 	)
 	floor, cracks = 1e-3 * unitJoint['tension'] * area, Cracks(model)
-	stop = loading.Stop(drop=0.5, displacement=2 * stroke)
+	stop = loading.Stop(drop=0.01, displacement=30 * stroke) if softens else loading.Stop(drop=0.5, displacement=2 * stroke)
 	film = Film(model, p.frames if p.vtk else 0)
 	record = Recorder(
-		displacement=gauge, stress=lambda: model.groupForce('top') / area, broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=floor)
+		displacement=gauge, stress=lambda: model.groupForce('top') / area, broken=cracks.look, yielded=lambda: np.count_nonzero(model.pointStatus),
+		unbalanced=lambda: model.unbalancedRatio(floor=floor)
 	)
 	record.after(lambda row: film.look(model.groupTravelled('top') / stroke, row.stress, O.time))
 	with Progress(steps, lambda: loadingLine(record.last.displacement, record.last.stress, model), label=stage.label) as progress:
 		record.after(lambda row: progress(O.iter)).after(lambda row: stop(model.groupTravelled('top'), row.stress, row.broken))
 		if p.solver == 'events':
 			path = loading.follow(model, 'top', stage.label, gauges=[gauge], displacement=2 * stroke)
-			record.take(displacement=path['gauges'][0], stress=path['force'] / area, broken=path['cracked'], unbalanced=path['residual'])
+			record.take(
+				displacement=path['gauges'][0], stress=path['force'] / area, broken=path['cracked'], yielded=path['cracked'],
+				unbalanced=path['residual']
+			)
 			cracks.began(path['crackPoint'])
 			film.look(1, 0, O.time)
 			return model, record, cracks, film
-		stage.keep(record=record, cracks=cracks, stop=stop)
-		if not stage.model: begin(model, steps, floor, record)
+		if not stage.model: begin(model, steps, floor)
+		approach = loading.Approach(model, 'top', 1 / faster) if softens and not p.servo else None # one of them sets the speed
+		if approach: record.after(lambda row: approach(row.stress, row.yielded))
+		stage.keep(record=record, cracks=cracks, approach=approach, stop=stop)
+		if not stage.model: leap(model, steps, record)
 		stage.run()
 	return model, record, cracks, film
 
 
-def begin(model, steps, floor, record):
-	"""The engines, and the way to the first crack."""
-	O.dt = duration / steps
+def begin(model, steps, floor):
+	"""The engines."""
+	O.dt, O.trackEnergy = duration / steps, softens
 	O.engines = loopList(servo=dict(groups=['top'], floor=floor) if p.servo else None, damping=p.damping, alpha=p.alpha, safety=p.safety)
 	O.run(1, True)
+	if softens and not p.servo: model.setTarget('top', faster * velocity, rampTime=0 if p.jump else 0.05 * duration)
+
+
+def leap(model, steps, record):
+	"""The way to the first crack."""
 	record()
 	if p.jump:
 		model.elasticJump()
@@ -134,8 +167,17 @@ def seriesStiffness():
 	return experiments.seriesStiffness(mortarHeight, mortar['young'], mortar['poisson'], unitJoint['kn'], side, p.plane == 'strain')
 
 
+def addEnergies(run, model, cracks):
+	"""By the section [N/m]."""
+	run.add('fracture_energy', 'N/m', energies.spent() / area)
+	run.add('crack_length', '1', (cracks.areas * model.pointDamage).sum() / area) # by damage, over the section
+	for cause, energy in energies.dissipated().items():
+		run.add('dissipated_' + cause, 'N/m', energy / area)
+
+
 # ---- running
 
+title = 'Couplet in tension, %s' % (p.joints if softens else p.case)
 O.timingEnabled = True
 with Session(p) as session:
 	for seed in p.seedList:
@@ -144,10 +186,10 @@ with Session(p) as session:
 				stage = session.stage('seed %d' % seed)
 				with run.stepping():
 					model, record, cracks, film = pull(stage, seed, p.steps)
-				displacement, stress, broken = record['displacement'], record['stress'], record['broken']
+				displacement, stress, broken, yielded = (record[name] for name in ('displacement', 'stress', 'broken', 'yielded'))
 				strength, peak = curves.peak(displacement, stress)
 				if p.solver == 'events': elastic = np.arange(len(stress)) <= np.argmax(broken > 0) # the first to break is still whole there
-				else: elastic = (broken == 0) & ((stress > 0.1 * strength) | p.jump) # from where a smooth start is over
+				else: elastic = (yielded == 0) & ((stress > 0.1 * strength) | p.jump) # from where a smooth start is over
 
 				run.add('peak_tensile_stress', 'MPa', strength / 1e6, expectedPeak, source)
 				run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
@@ -155,12 +197,13 @@ with Session(p) as session:
 				run.add('joint_stiffness', 'N/mm3', slope / 1e9, seriesStiffness() / 1e9, 'series of mortar and joints')
 				run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
 				run.add('crack_share_unit-mortar', '1', cracks.share('unit-mortar'))
+				if softens: addEnergies(run, model, cracks)
 				run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, broken=broken)
 				run.model(model, steps=O.iter, **engineCosts(model, O.iter))
 				run.quality(unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max())
 			if seed == p.seed:
-				session.picture('cracks.png', pictures.drawCracks, model, title='Couplet in tension, %s, seed %d' % (p.case, seed))
-				if p.sheets: pictures.drawSheets(session, film, model, 'Couplet in tension, %s, seed %d' % (p.case, seed))
+				session.picture('cracks.png', pictures.drawCracks, model, title='%s, seed %d' % (title, seed))
+				if p.sheets: pictures.drawSheets(session, film, model, '%s, seed %d' % (title, seed))
 				if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
 		if p.halfRate and session.wants(seed, 'half_rate_change'):
 			slow = pull(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]
@@ -169,6 +212,6 @@ with Session(p) as session:
 	session.write()
 	session.picture(
 		'curve.png', pictures.drawCurve, session.results.curves, 'displacement_mm', 'stress_MPa',
-		labels=('mean opening across the mortar layer [mm]', 'tensile stress [N/mm²]'), title='Couplet in tension, %s' % p.case
+		labels=('mean opening across the mortar layer [mm]', 'tensile stress [N/mm²]'), title=title
 	)
 scenario.waitIfBatch()

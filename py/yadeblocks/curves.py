@@ -17,6 +17,29 @@ def peak(x, y, smooth=0.0):
 	return np.convolve(y, np.ones(window) / window, mode="valid").max(), top
 
 
+def behindPeak(x, y, share):
+	"""The integral of y over x from the highest sample until y has fallen to `share` of it; NaN if it does not fall so far."""
+	x, y = np.asarray(x, float), np.asarray(y, float)
+	top = int(y.argmax())
+	low = np.flatnonzero(y[top:] <= share * y[top])
+	return np.trapz(y[top:top + low[0] + 1], x[top:top + low[0] + 1]) if len(low) else math.nan
+
+
+def driven(x, y, samples=2000):
+	"""A path with snap-back as a machine sees it that drives x upwards: where x goes back, it waits until the path comes by again, and the stress drops.
+	Equidistant samples, (x, y), so that means over them are means over the way."""
+	x, y = np.asarray(x, float), np.asarray(y, float)
+	far, places, values = x[0], [x[0]], [y[0]]
+	for i in range(1, len(x)):
+		if x[i] <= far: continue
+		back = (x[i] - far) / (x[i] - x[i - 1]) # the part of this piece that is new
+		places += [far, x[i]]
+		values += [y[i] + back * (y[i - 1] - y[i]), y[i]]
+		far = x[i]
+	even = np.linspace(x[0], far, samples)
+	return even, np.interp(even, places, values)
+
+
 def residual(x, y):
 	"""The mean of y over the last quarter of the path x; NaN if there is no path."""
 	x, y = np.asarray(x, float), np.asarray(y, float)

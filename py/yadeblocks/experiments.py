@@ -9,6 +9,7 @@ tensileStrengthOfPaper = {2e-3: (0.35, "paper, Fig. 10"), 6e-3: (0.43, "paper, F
 shearCohesion, shearFriction, residualFriction = 0.87, 1.01, 0.73 # [MPa], tangents; shear of couplets, 1:2:9 mortar, Van der Pluijm 1993
 compressiveStrength = 27.5, "Oliveira 2003" # of a prism
 youngsModulus = 4100., "Oliveira 2003"
+compressiveFractureEnergy = 23., "Oliveira 2003, as in Table 6" # stress times shortening behind the peak [N/mm]
 
 
 def peakShearStress(sigma):

@@ -91,7 +91,7 @@ class BlocksExport:
 
 	Zones: block, material (number in O.materials' order), stresses sxx, syy, sxy, szz, principal stresses s1, s2 in the plane and vonMises [Pa]; grid points:
 	displacement [m], velocity [m/s]; joints: firstBlock, secondBlock, normal (out of the first block), area [m2], opening [m], slip [m], sigma [Pa], tau [Pa],
-	status (0 intact, 1 broken in tension, 2 in shear, 3 never bonded) and damage (0 intact, else 1: the law is brittle)."""
+	status (0 intact, 1 broken in tension, 2 in shear, 3 never bonded, 4 softening) and damage (0 whole to 1, only residual strength is left)."""
 	def __init__(self, folder):
 		self.folder = Path(folder)
 		self.folder.mkdir(parents=True, exist_ok=True)
@@ -152,12 +152,11 @@ def _joints(model, untouched):
 		"firstBlock": first, "secondBlock": second, "normal": _spatial(np.repeat(model.normal, 2, axis=0)),
 		"area": np.repeat(np.asarray(model.segmentArea), 2)
 	}
-	for name in ("opening", "slip", "sigma", "tau"):
+	for name in ("opening", "slip", "sigma", "tau", "damage"):
 		values = np.array(getattr(model, "point" + name.capitalize()))
 		cells[name] = np.zeros_like(values) if untouched else values
 	status = np.array(model.pointStatus, np.uint8)
 	cells["status"] = np.where(status == 3, status, 0).astype(np.uint8) if untouched else status # never bonded stays so
-	cells["damage"] = (cells["status"] > 0).astype(np.float64)
 	return lines.reshape(-1, 2), "line", np.arange(2 * len(lines)).reshape(-1, 2), {}, cells
 
 

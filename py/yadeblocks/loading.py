@@ -12,25 +12,37 @@ From event to event, the exact answer of the brittle model, instead of in time s
 """
 import math
 
+from . import running
 from .curves import Peak
 from .progress import Progress
+from .recording import runner
 
 
 def settle(model, ratio=1e-4, floor=0.0, period=100, maxSteps=1000000):
-	"""Runs until the unbalanced force ratio (`BlockModel.unbalancedRatio`) is below `ratio`; the paper's 0.01 % by default.
+	"""Runs until the scene is at rest: unbalanced forces and kinetic energy are below `ratio` (the paper's 0.01 % by default) of what there is, as
+	`BlockModel.unrest` measures it, and every ramp is over.
 
-	floor: least sum of contact forces that counts [N]; period: steps between two looks. Returns the number of steps.
+	floor: least sum of forces that counts [N]; period: steps between two looks. Returns the number of steps.
 	Raises RuntimeError if maxSteps do not suffice: something moves that nothing holds, or is driven."""
 	if not ratio > 0: raise ValueError('settle: ratio must be positive, got %r' % ratio)
 	if not period >= 1: raise ValueError('settle: period must be at least 1, got %r' % period)
 	from yade.wrapper import Omega
-	O = Omega()
+	O, reached = Omega(), []
+
+	def look():
+		reached[:] = [model.unrest(floor=floor)]
+		if reached[0] < ratio: running.end()
+
 	start = O.iter
-	while O.iter - start < maxSteps:
-		O.run(min(period, maxSteps - (O.iter - start)), True)
-		reached = model.unbalancedRatio(floor=floor)
-		if reached < ratio: return O.iter - start
-	raise RuntimeError('settle: the unbalanced force ratio is %.3g after %d steps, not below %g' % (reached, maxSteps, ratio))
+	O.engines = O.engines + [runner('settle', look, period)]
+	try:
+		running.run(maxSteps)
+	finally:
+		O.engines = O.engines[:-1]
+	if not reached or reached[0] >= ratio: look()
+	if not reached[0] < ratio:
+		raise RuntimeError('settle: the unbalanced force ratio is %.3g after %d steps, not below %g' % (reached[0], maxSteps, ratio))
+	return O.iter - start
 
 
 def follow(model, group, label='', displacement=math.inf, **options):
@@ -139,6 +151,5 @@ class Stop:
 		elif self.displacement is not None and abs(displacement) >= self.displacement: self.reason = 'displacement'
 		elif self.cracks is not None and broken >= self.cracks: self.reason = 'cracks'
 		else: return False
-		from yade.wrapper import Omega
-		Omega().stopAtIter = Omega().iter + 1 # a pause would let O.run(n, True) return within this step
+		running.end() # a pause would let O.run(n, True) return within this step
 		return True

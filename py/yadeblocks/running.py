@@ -39,43 +39,75 @@ def interrupts():
 
 
 look = 0.1 # seconds between two looks for signals
+_lock, _ending = threading.Lock(), threading.Event()
+
+
+def end():
+	"""Ends the run after the step that is going on; for what a step calls, such as loading.Stop."""
+	from yade.wrapper import Omega
+	O = Omega()
+	with _lock: # a run that is to rest for a checkpoint must not forget this
+		_ending.set()
+		O.stopAtIter = O.iter + 1
 
 
 def run(steps=None, pause=None, every=0):
 	"""Runs so many steps, or until something stops the run. What stops it with an error is raised, as by O.run(steps, True).
 
 	O.run(steps, True) waits inside YADE, where Python gets to see no signal. Here YADE runs in the background, and this thread looks for signals ten times
-	a second; an interrupt ends the run after the step that is going on. pause: a function that is called every so many seconds, between two steps."""
+	a second; an interrupt ends the run after the step that is going on. pause: a function that is called every so many seconds, between two steps.
+
+	O.pause() does not do for that: it returns while a step is going on, and O.run(wait=True) then returns up to 40 ms later, be the step done or not. Saved
+	in the middle of a step, a scene moves once more than it should. Only a run that comes to its O.stopAtIter rests between two steps."""
 	from yade.wrapper import Omega
 	O = Omega()
-	O.stopAtIter = 0 # of an earlier run
-	start = time.monotonic()
-	while not _stretch(O, steps, start + every if pause else None):
+	last, start = O.iter + steps if steps else 0, time.monotonic()
+	_ending.clear()
+	while not _stretch(O, last, start + every if pause else None):
 		pause()
-		steps, start = None, time.monotonic()
+		start = time.monotonic()
+	for body in O.bodies: # the last steps of a run that was stopped by an engine behind BlockMotion
+		if type(body.shape).__name__ == "Block":
+			body.shape.model.requireSound()
+			break
 
 
-def _stretch(O, steps, until):
-	"""Runs on; whether this was all. If not, the run rests between two steps because the time `until` has come."""
-	errors, asked = [], False
+def _stretch(O, last, until):
+	"""Runs on; whether this was all. If not, the run rests between two steps because the time `until` has come. last: the step to stop at, 0 for none."""
+	errors, asked, O.stopAtIter = [], False, last
+	over = threading.Event() # not Thread.join: interrupted, it takes the thread for one that has ended (Python 3.11)
 
 	def work():
 		try:
-			O.run(-1 if steps is None else steps, True)
+			O.run(-1, True)
 		except BaseException as error:
 			errors.append(error)
+		finally:
+			over.set()
 
-	thread = threading.Thread(target=work, daemon=True)
-	thread.start()
+	first, began = O.iter, time.monotonic()
+	threading.Thread(target=work, daemon=True).start()
 	try:
-		while thread.is_alive():
-			thread.join(look if until is None or asked else max(0, min(look, until - time.monotonic())))
-			if until is not None and not asked and time.monotonic() >= until:
+		while not over.wait(look if until is None else max(0, min(look, until - time.monotonic()))):
+			if until is not None and time.monotonic() >= until:
 				asked = True
-				O.pause()
+				_rest(O, over, last, began, first)
 	except BaseException:
-		O.pause()
-		thread.join()
+		_rest(O, over, last, began, first)
 		raise
 	if errors: raise errors[0]
-	return not asked or O.stopAtIter == O.iter > 0
+	return not asked or _ending.is_set() or O.iter == last > 0
+
+
+def _rest(O, over, last, began, first):
+	"""Ends the run between two steps, soon. began, first: when it began, and at which step; over: set where it has ended."""
+	soon = 0.01 # seconds ahead; more where the run has passed the step before it could be stopped there
+	while not over.is_set():
+		with _lock:
+			speed = (O.iter - first) / max(time.monotonic() - began, 1e-3)
+			at, other = O.iter + 1 + int(soon * speed), O.stopAtIter # YADE makes it negative when it has stopped
+			ends = _ending.is_set() or O.iter < last <= at or other > O.iter and other != last
+			if not ends: O.stopAtIter = at
+		while not over.is_set() and (ends or O.iter <= at):
+			over.wait(0.002)
+		soon *= 2

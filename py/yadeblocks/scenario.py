@@ -10,6 +10,7 @@
 Every value is checked here, once. What is refused leaves one line on stderr and exit code 2. `help` shows what the Keys say.
 """
 import difflib
+import json
 import math
 import os
 import re
@@ -56,9 +57,11 @@ _common = {
 
 _usual = {
 	"units": Key("plain", "bricks are one elastic block each, or made of Voronoi blocks that could crack", rule=("plain", "voronoi")),
+	"cells": Key("voronoi", "Voronoi cells, or triangles of the same size", rule=("voronoi", "triangles")),
+	"edgeSegments": Key(1, "joints along an edge between two blocks", rule=atLeastOne),
+	"solver": Key("steps", "time steps, or the exact path from failure to failure", rule=("steps", "events")),
 	"brickZone": Key(8e-3, "size of the zones in plain bricks, mean edge of the blocks in others", "m", positive),
 	"merge": Key(0.1, "edges of Voronoi cells below this fraction of the size are merged", rule=(lambda f: 0 <= f < 1, "must lie in [0, 1)")),
-	"solver": Key("steps", "time steps, or from failure to failure as far as that goes", rule=("steps", "events")),
 	"jump": Key(True, "leap over the elastic part of the loading"),
 	"servo": Key(False, "the unbalanced force sets the speed of loading"),
 	"halfRate": Key(False, "repeat each run at half the loading rate and report the change"),
@@ -81,8 +84,8 @@ def commonParameters(**defaults):
 
 
 def usualParameters(**defaults):
-	"""Keys that more than one scenario has, with these defaults: `units brickZone merge solver jump servo halfRate vtk frames sheets pressSteps approach
-	sigma stroke` and all the common ones.
+	"""Keys that more than one scenario has, with these defaults: `units cells edgeSegments solver brickZone merge jump servo
+	halfRate vtk frames sheets pressSteps approach sigma stroke` and all the common ones.
 
 	Raises TypeError for a name that is none of them."""
 	return _chosen({**_common, **_usual}, "that several scenarios have", defaults)
@@ -165,6 +168,7 @@ def parameters(defaults, allowed=None, scenario=None):
 		print(describe(defaults, allowed, scenario))
 		sys.exit(0)
 	try:
+		words = withJoints(words, scenario)
 		given = {word.partition("=")[0] for word in words}
 		table = _batchLine(set(defaults))
 		p = parse(words + [f"{key}={text}" for key, text in table.items() if key not in given], defaults, allowed, scenario)
@@ -180,6 +184,32 @@ def require(fulfilled, text):
 	if not fulfilled:
 		print(text, file=sys.stderr)
 		sys.exit(2)
+
+
+def withJoints(words, scenario):
+	"""The words with joints=FILE.json replaced by what the file says (see `jointsFrom`), except for keys that the words give themselves."""
+	files = [word for word in words if word.startswith("joints=") and word.endswith(".json")]
+	if not files:
+		return words
+	rest = [word for word in words if word not in files]
+	given = {word.partition("=")[0] for word in rest}
+	return rest + [f"{key}={value}" for file in files for key, value in jointsFrom(file[7:], scenario).items() if key not in given]
+
+
+def jointsFrom(file, scenario):
+	"""Keys and values for a scenario from a file of calibrated parameters, as scripts/study.sh calibrate writes it:
+	{"parameters": {key: value}, "scenarios": {scenario: {key: value}}}; the second, which may be missing, is for that scenario only.
+	"joints" among them names the set of joints that the others change. Raises ParameterError for a file that is not of this form."""
+	try:
+		found = json.loads(Path(file).read_text())
+		values = {**found["parameters"], **found.get("scenarios", {}).get(scenario, {})}
+	except OSError as error:
+		raise ParameterError(f"{scenario}.joints must be a file that can be read, got {file} ({error.strerror})") from None
+	except (ValueError, KeyError, TypeError, AttributeError):
+		raise ParameterError(f'{scenario}.joints must be a file with {{"parameters": {{key: value}}}}, got {file}') from None
+	if not all(isinstance(value, (int, float, str)) for value in values.values()):
+		raise ParameterError(f"{scenario}.joints must be a file whose parameters are numbers or words, got {file}")
+	return values
 
 
 def describe(defaults, allowed=None, scenario="scenario"):

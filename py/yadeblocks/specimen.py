@@ -3,6 +3,11 @@
 import numpy as np
 
 
+def addCells(model, cells, outline, material, **options):
+	"""Fills an outline with blocks: cells is "voronoi" (BlockModel.addVoronoi) or "triangles" (addTriangles); what they return."""
+	return {"voronoi": model.addVoronoi, "triangles": model.addTriangles}[cells](outline, material, **options)
+
+
 def rectangle(x0, y0, x1, y1):
 	"""Corners of a rectangle, counter-clockwise [m]."""
 	return [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]

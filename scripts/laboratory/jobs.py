@@ -12,14 +12,9 @@ import fcntl
 import json
 import math
 import os
-import platform
 import shutil
-import signal
-import subprocess
 import sys
-import threading
-import time
-from concurrent.futures import ThreadPoolExecutor
+from collections import Counter
 from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
@@ -27,7 +22,8 @@ from typing import NamedTuple
 from yadeblocks import curves
 from yadeblocks.provenance import fingerprint, sourcesOf
 
-from . import study
+from . import run, study
+from .engine import Engine, EngineError
 
 
 class Job(NamedTuple):
@@ -38,34 +34,48 @@ class Job(NamedTuple):
 
 	@property
 	def name(self):
-		return f"{self.script} {study.settingsKey(self.settings)} seed={self.seed}"
+		return f"{Path(self.script).stem} {study.settingsKey(self.settings)} seed={self.seed}"
 
 
 class Jobs:
 	"""The kept results in `folder`, and a way to get more.
 
 	house: the checkout; plugin: the library that scripts load; pluginFree: scripts whose results do not depend on it;
-	limit: seconds of wall-clock time after which a run counts as failed; parallel: how many at a time."""
-	def __init__(self, house, folder, plugin, pluginFree=(), limit=1800, parallel=1, retry=False, stream=None):
+	limit: seconds of wall-clock time after which a run counts as failed; parallel: how many at a time on this machine; scheduler: of a cluster to be used
+	instead, see Engine. A script is the name of one in scripts/, or the path of one's own.
+	In `with jobs:` the workers stay from one call of `do` to the next."""
+	def __init__(self, house, folder, plugin, pluginFree=(), limit=1800, parallel=1, retry=False, stream=None, scheduler="", engine=None):
 		self.house, self.folder, self.plugin, self.pluginFree = Path(house), Path(folder).resolve(), Path(plugin).resolve(), pluginFree
 		self.limit, self.parallel, self.retry, self.stream = limit, parallel, retry, stream or sys.stderr
 		self.kept, self.work = self.folder / "runs", self.folder / "work"
-		self.running, self.lock, self.stopped = set(), threading.Lock(), False
+		self.engine, self.stays = engine or Engine(parallel, scheduler), engine is not None
 		self.code = lru_cache(maxsize=None)(self._code)
+
+	def __enter__(self):
+		self.stays = True
+		return self
+
+	def __exit__(self, *_):
+		self.engine.close()
 
 	def path(self, job):
 		"""Where the result of this job is kept."""
-		return self.kept / f"{fingerprint((), job.name, self.code(job.script))[:24]}.json"
+		return self.kept / f"{fingerprint((), job.name, self.code(job.script)[0])[:24]}.json"
+
+	def record(self, job):
+		"""What the job left: {"job", "reported", "units", "expected", "cost", "quality", "curve", "columns"} or {"job", "failed": reason}; None if it has
+		not been run with this code."""
+		path = self.path(job)
+		return json.loads(path.read_text()) if path.exists() else None
 
 	def result(self, job):
-		"""What the job gave: {"job", "measures", "cost", "quality"} or {"job", "failed": reason}; None if it has not been run with this code."""
-		path = self.path(job)
-		if not path.exists():
-			return None
-		record = json.loads(path.read_text())
-		if "failed" in record:
+		"""As `record`, with the quantities that are read from the curve in place of it: {"measures"}. A curve that lacks one counts as failed."""
+		record = self.record(job)
+		if record is None or "failed" in record:
 			return record
-		measures = {name: value for name, (value, unit) in curves.measure(job.settings.get("experiment", job.script), *record.pop("curve")).items()}
+		x, y = record.pop("curve")
+		if job.settings.get("solver") == "events": x, y = curves.driven(x, y) # what a machine would have seen
+		measures = {name: value for name, (value, unit) in curves.measure(job.settings.get("experiment", job.script), x, y).items()}
 		lacking = [name for name, value in measures.items() if math.isnan(value)]
 		return {**record, "failed": "the curve has no " + ", no ".join(lacking)} if lacking else {**record, "measures": measures}
 
@@ -73,39 +83,38 @@ class Jobs:
 		"""Those that have to be run, each once, in the given order."""
 		seen = {}
 		for job in jobs:
-			kept = self.result(job)
+			kept = self.record(job)
 			if kept is None or (
-				"failed" in kept and (self.retry or kept.get("limit", math.inf) < self.limit or kept["failed"].startswith("exit code -"))
+				"failed" in kept and
+				(self.retry or kept.get("again") or kept.get("limit", math.inf) < self.limit or kept["failed"].startswith("exit code -"))
 			): # killed
 				seen.setdefault(job.name, job)
 		return list(seen.values())
 
 	def do(self, jobs):
-		"""Runs what is not there yet. An interrupt ends the running processes and keeps what is complete."""
+		"""Runs what is not there yet. An interrupt ends the running processes and keeps what is complete; raises EngineError if it cannot go on."""
 		jobs = self.wanted(jobs)
 		if not jobs:
 			return
-		self.kept.mkdir(parents=True, exist_ok=True)
+		self._makeRoom()
 		with self._claimed():
 			shutil.rmtree(self.work, ignore_errors=True) # leftovers of an interrupted run
 			self.work.mkdir()
-			self._all(jobs)
-			shutil.rmtree(self.work)
-
-	def _all(self, jobs):
-		line = _ProgressLine(jobs, self.parallel, self.stream)
-		with ThreadPoolExecutor(self.parallel) as pool:
+			line, jobsOf = _ProgressLine(jobs, self.stream), {self.path(job).stem: job for job in jobs}
 			try:
-				for future in [pool.submit(self._one, job, line) for job in jobs]:
-					future.result()
-			except BaseException:
-				self.stopped = True
-				with self.lock:
-					for process in self.running:
-						os.killpg(process.pid, signal.SIGTERM) # the group that this very process was started in
-				raise
+				self.engine.start()
+				line.parallel = self.engine.slots()
+				self.engine.do((self._task(job) for job in jobs), lambda task, outcome: self._keep(jobsOf[task["key"]], outcome, line))
 			finally:
 				line.close()
+				if not self.stays: self.engine.close()
+				shutil.rmtree(self.work, ignore_errors=True)
+
+	def _makeRoom(self):
+		try:
+			self.kept.mkdir(parents=True, exist_ok=True)
+		except OSError as error:
+			raise EngineError(f"results cannot be kept in {self.kept}: {error.strerror}") from None
 
 	def _claimed(self):
 		"""The folder, for one process at a time: the file to close when it is done."""
@@ -116,85 +125,90 @@ class Jobs:
 			raise RuntimeError(f"another benchmark is running in {self.folder}") from None
 		return claim
 
-	def _one(self, job, line):
-		if self.stopped:
-			return
-		self._unchanged(job)
-		start, key = time.monotonic(), self.path(job).stem
-		words = [f"{name}={study.plain(value)}" for name, value in job.settings.items()]
-		command = ["yade", "-n", "-x", "-j1", str(self.house / "scripts" / f"{job.script}.py"), *words, f"seed={job.seed}", f"tag={key}"]
+	def _task(self, job):
+		"""What a worker is asked to do, see run.execute."""
+		key, words = self.path(job).stem, self._words(job)
+		script, tag = self._script(job.script), f"tag={key}"
 		environment = {
-			**os.environ, "OMP_WAIT_POLICY": "passive", "YADEBLOCKS_PLUGIN": str(self.plugin),
+			"OMP_WAIT_POLICY": "passive", "YADEBLOCKS_PLUGIN": str(self.plugin),
 			"PYTHONPATH": os.pathsep.join([str(self.house / "py"), *filter(None, [os.environ.get("PYTHONPATH")])])
 		}
-		log = self.work / f"{key}.log"
-		with open(log, "w") as output:
-			with self.lock:
-				if self.stopped: return
-				process = subprocess.Popen(
-					command, cwd=self.work, env=environment, stdout=output, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-					start_new_session=True
-				)
-				self.running.add(process)
-			reason = self._wait(process)
-		if self.stopped:
-			return
-		self._unchanged(job)
-		record = {
-			"parallel": self.parallel, "job": {"script": job.script, "settings": job.settings, "seed": job.seed},
-			"command": " ".join(["scripts/run.sh", job.script, *words, f"seed={job.seed}"])
+		return {
+			"key": key, "command": ["yade", "-n", "-x", "-j1", str(script), *words, f"seed={job.seed}",
+						tag], "environment": {**(os.environ if self.engine.local else {}), **environment},
+			"folder": os.path.join("out", f"{script.stem}-{key}"), "limit": self.limit, "files": self._files(job.script),
+			"digest": self.code(job.script)[1], "scratch": str(self.work) if self.engine.local else None
 		}
+
+	def _words(self, job):
+		return [f"{name}={study.plain(value)}" for name, value in job.settings.items()]
+
+	def _keep(self, job, outcome, line):
+		"""Writes down what a run gave, whole or not at all."""
+		if outcome.get("changed"): # a result that was made while the code changed belongs to neither state of it
+			raise RuntimeError(f"the code behind {self._script(job.script)} has changed while it was running: start it again")
+		if self.engine.kind and outcome["processor"] and outcome["processor"] != self.engine.kind[1]:
+			outcome = {
+				**outcome, "failed": f"{outcome['host']} has another processor than the first workers: {outcome['processor']}", "again": True
+			}
+		record = {
+			"parallel": line.parallel, "job": {"script": job.script, "settings": job.settings, "seed": job.seed},
+			"command": " ".join(["scripts/run.sh", job.script, *self._words(job),
+						f"seed={job.seed}"]), "wall_s": outcome["wall_s"], "host": outcome["host"]
+		}
+		if "failed" in outcome:
+			record.update({name: outcome[name] for name in ("failed", "again", "limit") if outcome.get(name)})
+		else:
+			try:
+				record.update(_whatCounts(outcome))
+			except (KeyError, TypeError) as error:
+				record["failed"] = f"its result.json or curve.csv lacks {error}"
+		part = self.path(job).with_suffix(".part")
 		try:
-			record.update(self._read(job, key) if not reason else {"failed": f"{reason}: {_lastLine(log)}"})
-			if reason.startswith("not done"): record["limit"] = self.limit # more time may do
-		except (OSError, KeyError, ValueError) as error:
-			record["failed"] = f"left no result ({type(error).__name__}): {_lastLine(log)}"
-		record["wall_s"] = time.monotonic() - start
-		part = self.kept / f"{key}.part"
-		part.write_text(json.dumps(record) + "\n")
-		part.rename(self.path(job)) # complete or not there
-		shutil.rmtree(self.work / "out" / f"{job.script}-{key}", ignore_errors=True)
-		log.unlink()
+			part.write_text(json.dumps(record) + "\n")
+			part.rename(self.path(job))
+		except OSError as error:
+			part.unlink(missing_ok=True)
+			raise EngineError(
+				f"the result of {job.name} cannot be kept in {self.kept}: {error.strerror}; what is complete is kept, the same command continues"
+			) from None
 		line.done(job, record)
 
-	def _unchanged(self, job):
-		"""A result that was made while the code changed belongs to neither state of it."""
-		if self._code(job.script) != self.code(job.script):
-			raise RuntimeError(f"the code behind scripts/{job.script}.py has changed while it was running: start the benchmark again")
+	def _script(self, script):
+		return Path(script).resolve() if script.endswith(".py") else self.house / "scripts" / f"{script}.py"
 
-	def _wait(self, process):
-		"""Why the process failed, or nothing."""
-		try:
-			code = process.wait(self.limit)
-			return f"exit code {code}" if code else ""
-		except subprocess.TimeoutExpired:
-			os.killpg(process.pid, signal.SIGKILL)
-			process.wait()
-			return f"not done after {self.limit:g} s"
-		finally:
-			with self.lock:
-				self.running.discard(process)
-
-	def _read(self, job, key):
-		"""What the run left behind. The curve is kept, not what is read from it: that may be read again, in a better way."""
-		import pandas
-		folder = self.work / "out" / f"{job.script}-{key}"
-		result, curve = json.loads((folder / "result.json").read_text()), pandas.read_csv(folder / "curve.csv")
-		return {
-			"reported": {quantity["name"]: quantity["measured"] for quantity in result["quantities"]}, "expected": {
-				quantity["name"]: quantity["expected"] for quantity in result["quantities"] if quantity["expected"] is not None
-			}, "cost": result["cost"], "quality": result["quality"], "curve": [curve.iloc[:, 1].tolist(), curve["stress_MPa"].tolist()]
-		}
+	def _files(self, script):
+		files = sourcesOf(self._script(script), self.house / "py" / "yadeblocks") + ([] if script in self.pluginFree else [self.plugin])
+		return [str(path) for path in files]
 
 	def _code(self, script):
-		"""The hash of all that a run of this script depends on but its settings."""
-		files = sourcesOf(self.house / "scripts" / f"{script}.py", self.house / "py" / "yadeblocks")
-		return fingerprint(files + ([] if script in self.pluginFree else [self.plugin]), yadeVersion(), _processor())
+		"""The hash of all that a run of this script depends on but its settings, and that of its files alone."""
+		files = run.digest(self._files(script))
+		if self.engine.local: return fingerprint((), files, yadeVersion(), _processor()), files
+		self.engine.start()
+		return fingerprint((), files, *self.engine.kind), files
+
+
+def _whatCounts(outcome):
+	"""What is kept of a run: its quantities, its costs and one curve: stress over the second column, or else the third column over it."""
+	result, curve = outcome["result"], outcome["curve"]
+	quantities = result["quantities"]
+	kept = {
+		"reported": {quantity["name"]: quantity["measured"] for quantity in quantities}, "units": {
+			quantity["name"]: quantity.get("unit", "") for quantity in quantities
+		}, "expected": {quantity["name"]: quantity["expected"] for quantity in quantities if quantity["expected"] is not None}, "cost": result["cost"],
+		"quality": result["quality"], "curve": None, "columns": None
+	}
+	names = list(curve or ())
+	if len(names) > 2:
+		kept["columns"] = [names[1], "stress_MPa" if "stress_MPa" in names else names[2]]
+		kept["curve"] = [curve[name] for name in kept["columns"]]
+	return kept
 
 
 @lru_cache(maxsize=None)
 def yadeVersion():
-	return subprocess.run(["yade", "--version"], capture_output=True, text=True, stdin=subprocess.DEVNULL).stdout.split("\n")[0]
+	return run.yadeVersion()
 
 
 def machine():
@@ -202,33 +216,25 @@ def machine():
 	return f"{_processor()}, {os.cpu_count()} cores"
 
 
-@lru_cache(maxsize=None)
-def _processor():
-	lines = Path("/proc/cpuinfo").read_text().splitlines()
-	return next((line.partition(":")[2].strip() for line in lines if line.startswith("model name")), platform.machine())
-
-
-def _lastLine(log):
-	"""What a run said last."""
-	lines = [line.strip() for line in Path(log).read_text(errors="replace").splitlines() if line.strip()]
-	return lines[-1][:300] if lines else "(said nothing)"
+_processor = lru_cache(maxsize=None)(run.processor)
 
 
 class _ProgressLine:
 	"""done/all, the last job, the time left: jobs that cost more (by their steps) are expected to take longer."""
-	def __init__(self, jobs, parallel, stream):
-		self.left, self.total, self.parallel, self.stream = {job.name: job for job in jobs}, len(jobs), parallel, stream
-		self.walls, self.start, self.lock = {}, time.monotonic(), threading.Lock()
+	def __init__(self, jobs, stream):
+		self.left, self.total, self.parallel, self.stream = {job.name: self._kind(job) for job in jobs}, len(jobs), 1, stream
+		self.leftOfKind, self.walls = Counter(self.left.values()), {}
 
 	def done(self, job, record):
-		with self.lock:
-			del self.left[job.name]
-			self.walls.setdefault(self._kind(job), []).append(record["wall_s"])
-			everything = [wall for walls in self.walls.values() for wall in walls]
-			mean = lambda walls: sum(walls) / len(walls)
-			left = sum(mean(self.walls.get(self._kind(other), everything)) for other in self.left.values()) / self.parallel
-			what = record.get("failed", f"{record.get('cost', {}).get('cpu_s', 0):.1f} CPU s")
-			self._write(f"{self.total - len(self.left)}/{self.total}  {int(left) // 60}:{int(left) % 60:02} left  {job.name}: {what}")
+		kind = self.left.pop(job.name)
+		self.leftOfKind[kind] -= 1
+		count, wall = self.walls.get(kind, (0, 0.0))
+		self.walls[kind] = count + 1, wall + record["wall_s"]
+		overall = sum(wall for count, wall in self.walls.values()) / sum(count for count, wall in self.walls.values())
+		mean = lambda kind: self.walls[kind][1] / self.walls[kind][0] if kind in self.walls else overall
+		left = sum(number * mean(kind) for kind, number in self.leftOfKind.items()) / self.parallel
+		what = record.get("failed", f"{record.get('cost', {}).get('cpu_s', 0):.1f} CPU s")
+		self._write(f"{self.total - len(self.left)}/{self.total}  {int(left) // 60}:{int(left) % 60:02} left  {job.name}: {what}")
 
 	def _kind(self, job):
 		return job.script, job.settings.get("experiment"), job.settings.get("model"), job.settings.get("steps"), job.settings.get("size")

@@ -114,7 +114,7 @@ def cheapest(rows, limit, error):
 def reading(rows, names, limits=(0.05, 0.02, 0.01), most=10):
 	"""What the plot of one case shows, in at most so many lines; what failed is always among them. names: the quantities, the peak first."""
 	peak, lines = names[0], []
-	blocks = [row for row in rows if row.model == "blocks" and not row.isReference and row.knob not in (*specimenKnobs, "half as slow")]
+	blocks = [row for row in rows if row.model == "blocks" and not row.isReference and row.knob not in (*specimenKnobs, "half as slow", "slow")]
 	others = [row for row in rows if row.model != "blocks" and not row.isReference]
 	check = next((row for row in rows if row.model == "blocks" and row.knob == "half as slow"), None)
 	known = check.reference if check else {}
@@ -123,12 +123,22 @@ def reading(rows, names, limits=(0.05, 0.02, 0.01), most=10):
 		lines.append(
 			f"Errors are rms over {known[peak].seeds} seeds against each seed's own slow run; that one moves when loaded twice as fast: {moves}."
 		)
+	slow = next((row for row in rows if row.model == "blocks" and row.knob == "slow" and row.reference.get(peak)), None)
+	if slow:
+		moves = ", ".join(
+			f"{shortNames[name]} {_signed(slow.reference[name].mean)} ± {_percent(slow.reference[name].scatter)}" for name in names
+			if slow.reference.get(name)
+		)
+		lines.append(
+			f"Errors are rms over {slow.reference[peak].seeds} seeds against each seed's own path from event to event; "
+			f"a slow run ({slow.label}) is off by: {moves}."
+		)
 	said = [text for text in (_bestFor(blocks, name, known.get(name), limits) for name in names) if text]
 	lines += said[:1]
 	converged = [row for row in rows if row.model == "blocks" and row.isReference and row.laboratory.get(peak)]
 	near = converged or [row for row in blocks if row.sound and row.laboratory.get(peak)]
 	if near:
-		lines.append(f"Laboratory: {'the slow run' if converged else near[0].label} gives " + _laboratory(near[0], names) + ".")
+		lines.append(f"Laboratory: {near[0].label if slow or not converged else 'the slow run'} gives " + _laboratory(near[0], names) + ".")
 	best = {}
 	for row in others:
 		if row.knob not in specimenKnobs and row.sound and row.laboratory.get(peak):

@@ -15,7 +15,7 @@ _floor = 1e-4 # errors below are drawn here
 
 
 def drawTradeoff(path, cases, names, lines, title=""):
-	"""One row of two panels for each case: rms error of the peak against the slow run and against the laboratory; the reading below.
+	"""One row of two panels for each case: rms error of the peak against the reference and against the laboratory; the reading below.
 
 	cases: {case: rows}; names: quantities, the peak first; lines: of the reading. Filled markers and the line are the Pareto front of
 	the blocks and, apart, of all spheres; what is dominated is hollow."""
@@ -37,7 +37,7 @@ def drawTradeoff(path, cases, names, lines, title=""):
 			hspace=0.35
 		)
 		for i, (case, rows) in enumerate(cases.items()):
-			for j, (kind, against) in enumerate((("reference", "its own slow run"), ("laboratory", "the laboratory"))):
+			for j, (kind, against) in enumerate((("reference", "its own reference"), ("laboratory", "the laboratory"))):
 				axes = figure.add_subplot(grid[i, j])
 				axes.set_ylabel("rms error [%]")
 				if kind == "laboratory": shown = [row for row in rows if row.knob not in ("one set", "low friction")]

@@ -316,9 +316,51 @@ Real checkZones(const Zones& zones, const Polygon& outline, const std::string& w
 	return quality(zones).worstAspect;
 }
 
+/// What a cell cannot help: its diameter by the smallest of the lengths of the region's walls that it touches, the distances between them, and the widths
+/// of their sharp corners. 1 if it touches none.
+Real forcedAspect(const Ring& cell, const Polygon& region)
+{
+	std::vector<std::pair<Vec2, Vec2>> walls;
+	const Real                         reach = 1e-9 * std::sqrt(signedArea(cell)) + 64 * std::numeric_limits<Real>::epsilon() * largestCoordinate(region);
+	const auto                         distance = [](const Vec2& p, const Vec2& a, const Vec2& b) {
+                const Real s = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), Real(0), Real(1));
+                return (p - a - s * (b - a)).norm();
+	};
+	const auto collect = [&](const Ring& ring) {
+		for (size_t k = 0, n = ring.size(); k < n; ++k) {
+			const Vec2 &a = ring[k], &b = ring[(k + 1) % n];
+			for (const Vec2& p : cell)
+				if (distance(p, a, b) <= reach) {
+					walls.push_back({ a, b });
+					break;
+				}
+		}
+	};
+	collect(region.outer);
+	for (const Ring& hole : region.holes)
+		collect(hole);
+	Real diameter = 0, feature = std::numeric_limits<Real>::infinity();
+	for (const Vec2& p : cell)
+		for (const Vec2& q : cell)
+			diameter = std::max(diameter, (p - q).norm());
+	for (const auto& [a, b] : walls) {
+		feature = std::min(feature, (b - a).norm());
+		for (const auto& [c, d] : walls) {
+			if (a == c) continue;
+			if (b == c) {
+				if ((a - b).dot(d - b) > 0)
+					feature = std::min(feature, diameter * std::abs(cross(a - b, d - b)) / ((a - b).norm() * (d - b).norm()));
+			} else if (a != d)
+				feature = std::min({ feature, distance(a, c, d), distance(b, c, d), distance(c, a, b), distance(d, a, b) });
+		}
+	}
+	return std::max(Real(1), diameter / feature);
+}
+
 struct Tally {
 	std::map<std::string, long> refusals, zonings;
 	std::map<int, long>         aspects; ///< decade of the worst zone of a cell -> cells
+	std::map<int, long>         ours;    ///< the same of slivers that neither the region nor given seeds nor mergeFraction 0 ask for
 	long                        cells = 0, tessellations = 0, regions = 0;
 };
 
@@ -364,6 +406,8 @@ void checkTessellation(const Case& c, Tally& tally)
 		const CellZones zones  = cellZones(ringOf(cells, i), c.zoning);
 		const Real      aspect = checkZones(zones.zones, { ringOf(cells, i), {} }, "cell");
 		++tally.aspects[int(std::floor(std::log10(aspect)))];
+		if (aspect > sliverAspect && aspect > 10 * forcedAspect(ringOf(cells, i), c.region) && c.options.mergeFraction > 0 && c.options.seeds.empty())
+			++tally.ours[int(std::floor(std::log10(aspect)))];
 		++tally.zonings[zones.zoning == Zoning::fan ? "fan" : zones.zoning == Zoning::corners ? "corners" : "delaunay"];
 		a.addBlock(zones.zones.points, zones.zones.rings, zones.zones.triangles, 0);
 	}
@@ -487,6 +531,8 @@ int main(int argc, char** argv)
 		std::cout << "  cells by zoning: " << name << " " << n << "\n";
 	for (const auto& [decade, n] : tally.aspects)
 		std::cout << "  worst aspect of a cell in [1e" << decade << ", 1e" << decade + 1 << "): " << n << "\n";
+	for (const auto& [decade, n] : tally.ours)
+		std::cout << "  of these, asked for neither by the region nor by its options: [1e" << decade << ", 1e" << decade + 1 << "): " << n << "\n";
 	for (const auto& [text, n] : tally.refusals)
 		std::cout << "  refused " << n << ": " << text << "\n";
 	std::cout << "unexplained " << unexplained << "\n";

@@ -40,7 +40,8 @@ def column():
 		segmentBlocks=np.array([(0, 1), (1, 2)], np.int32), segmentParameters=np.array([(0., 1., 1., 0.), (0., 1 / 3, 1., 2 / 3)]),
 		segmentArea=np.array([75e-6, 25e-6]), pointOpening=np.array([1., 2., 3., 4.]), pointSlip=np.array([5., 6., 7., 8.]), pointSigma=np.array([
 			9., 10., 11., 12.
-		]), pointTau=np.array([13., 14., 15., 16.]), pointStatus=np.array([1, 2, 3, 3], np.uint8), zoneStress=lambda: stress, cornerTriangles={
+		]), pointTau=np.array([13., 14., 15., 16.]), pointStatus=np.array([1, 2, 3, 3], np.uint8),
+		pointDamage=np.array([1., 1., 0., 0.]), zoneStress=lambda: stress, cornerTriangles={
 			2: np.array([(8, 9, 10), (8, 10, 11)], np.int32)
 		}.get, planeStress=False, poisson=np.array([0.2, 0.3, 0.1]), normal=np.array([(0., 1.), (0.6, 0.8)])
 	)
@@ -307,7 +308,7 @@ def test_exportReadsBack(tmp_path):
 	for name in ("Opening", "Slip", "Sigma", "Tau", "Status"):
 		assert list(cells[name.lower()]) == list(getattr(model, "point" + name))
 	assert list(cells["firstBlock"]) == [0, 0, 1, 1] and list(cells["secondBlock"]) == [1, 1, 2, 2]
-	assert list(cells["area"]) == [75e-6, 75e-6, 25e-6, 25e-6] and list(cells["damage"]) == [1, 1, 1, 1]
+	assert list(cells["area"]) == [75e-6, 75e-6, 25e-6, 25e-6] and list(cells["damage"]) == [1, 1, 0, 0]
 	assert cells["normal"][0] == pytest.approx([0, 1, 0]) and cells["normal"][3] == pytest.approx([0.6, 0.8, 0])
 
 

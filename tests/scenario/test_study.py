@@ -19,7 +19,7 @@ from yadeblocks import curves, experiments, packing, provenance
 
 package = Path(curves.__file__).parent
 sys.path.insert(0, str(package.parents[1] / "scripts"))
-from laboratory import calibration, jobs, study, tradeoff, tradeoffpicture
+from laboratory import calibration, engine, jobs, study, tradeoff, tradeoffpicture
 
 # ---- curves
 
@@ -36,6 +36,14 @@ def test_tensionCurve():
 	m = values(curves.measure("tension", x, y))
 	assert m["joint_stiffness"] == pytest.approx(35)
 	assert m["peak_tensile_stress"] == pytest.approx(0.35 * 0.995) # mean of the last two of 100 samples: half a sample lower
+
+
+def test_snapBackAsAMachineSeesIt():
+	# up to (1, 1), back to (0.5, 0.2), and up again by (1, 0.6), where the machine has waited, to (1.5, 1)
+	x, y = curves.driven([0, 1, 0.5, 1.5], [0, 1, 0.2, 1], samples=1501)
+	assert x[1] - x[0] == pytest.approx(1e-3) and x[-1] == 1.5
+	assert y[:1000] == pytest.approx(x[:1000]) # the way up
+	assert y[1001:] == pytest.approx(0.6 + 0.8 * (x[1001:] - 1)) # the second branch, of slope 0.8
 
 
 def test_oneSampleIsNoPeak():
@@ -151,8 +159,20 @@ def house(tree, monkeypatch):
 	return tree
 
 
+@pytest.fixture(scope="module")
+def workers():
+	"""Two workers that all tests share."""
+	with engine.Engine(2) as started:
+		yield started
+
+
+@pytest.fixture(autouse=True)
+def shared(workers):
+	started.engine = workers
+
+
 def started(house, **more):
-	return jobs.Jobs(house, house / "out/benchmark", house / "plugin.so", stream=open(os.devnull, "w"), **more)
+	return jobs.Jobs(house, house / "out/benchmark", house / "plugin.so", stream=open(os.devnull, "w"), engine=started.engine, **more)
 
 
 def calls(house):
@@ -329,6 +349,15 @@ def test_reading():
 	assert "Failed, see the table: blocks lucky." in text and "Not all seeds" not in text
 
 
+def test_readingAgainstTheExactPath():
+	"""The solver is the reference and a point of its own; the slow run is neither a recommendation nor how well the reference is known."""
+	solver, slow = rowOf("events", 0.3, 0, knob="solver"), rowOf("80k steps", 0.01, 0.003, knob="slow")
+	lines = tradeoff.reading([row for row in study4 if not row.isReference] + [solver, slow], tradeoff.quantities["tension"])
+	text = "\n".join(lines)
+	assert "path from event to event; a slow run (80k steps) is off by: peak +0.3 % ± 0.15 %" in lines[0]
+	assert "1 %: events (0.3 CPU s, 0 %)" in text and "slow run gives" not in text
+
+
 def test_readingAgainstAReferenceThatMoves():
 	text = "\n".join(tradeoff.reading(study4 + [moving(0.028)], tradeoff.quantities["tension"]))
 	assert "For the peak within 5 %: 5k steps" in text and "2 %: cannot be judged, the reference is known to 2.8 % only." in text
@@ -424,13 +453,17 @@ def study5(house):
 		shutil.copytree(package.parents[1] / folder, house / folder)
 
 	def benchmark(mode):
-		command = [sys.executable, house / "scripts/benchmark.py", "experiment=tension", "model=jcfpm", "seeds=1", f"mode={mode}"]
+		cluster.start()
+		where = f"scheduler={cluster.cluster.scheduler_address}"
+		command = [sys.executable, house / "scripts/benchmark.py", "experiment=tension", "model=jcfpm", "seeds=1", f"mode={mode}", where]
 		return subprocess.run(
 			command, env={**os.environ, "YADEBLOCKS_PLUGIN": str(house / "plugin.so")}, capture_output=True, text=True, check=True
 		).stdout
 
 	benchmark.file = lambda name: house / name
-	return benchmark
+	cluster = engine.Engine(2) # its workers find the imitation of YADE
+	yield benchmark
+	cluster.close()
 
 
 @pytest.mark.parametrize(

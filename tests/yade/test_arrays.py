@@ -17,7 +17,7 @@ shapes = {
 	'segmentNodes segmentParameters': ('contactCount / 2', 4),
 	'segmentBlocks normal': ('contactCount / 2', 2),
 	'segmentArea': ('contactCount / 2', ),
-	'pointOpening pointSlip pointSigma pointTau pointStatus': ('contactCount', ),
+	'pointOpening pointSlip pointSigma pointTau pointStatus pointDamage': ('contactCount', ),
 }
 names = [name for group in shapes for name in group.split()]
 indices = 'zoneNodes firstNode firstZone firstEdge blockMaterial edgeNodes segmentNodes segmentBlocks'.split()

@@ -75,30 +75,26 @@ def test_runningBond():
 def test_cantileverWithAWeightlessNeighbour():
 	"""A beam of 1 x 0.1 m at zones of 0.025 m, a block of 5 cm upon its end that weighs nothing: it bends as a beam does.
 
-	By beam theory q L^4 / 8 E I = 1.47e-4 m, E' = E / (1 - nu^2) in plane strain, plus shear 3e-6; constant-strain zones of a quarter of the
-	depth are too stiff by about a tenth (they were ten times too stiff where the outline was left undivided)."""
-	def deflection():
-		O.reset()
-		O.materials.append(BlockMat(label='unit', young=20e9, poisson=0.2, density=2000))
-		O.materials.append(BlockMat(label='light', young=20e9, poisson=0.2, density=1e-6))
-		m = BlockModel(thickness=1)
-		m.addRegion(R(.95, .1, 1, .15), 'light', zoneSize=.05)
-		m.addRegion(R(0, 0, 1, .1), 'unit', zoneSize=.025)
-		m.bond()
-		m.drive('clamp', nodesWhere(m, lambda x, y: x < 1e-9), 'xy')
-		m.gravity((0, -9.81))
-		m.insert()
-		O.dt = 1e-3
-		O.engines = engines([
-			JointMat(material1=a, material2=b, **{**glue, 'cohesion': 1e15, 'tension': 1e15})
-			for a, b in (('unit', 'light'), ('unit', 'unit'), ('light', 'light'))
-		], alpha=0.5)
-		from yadeblocks import loading
-		loading.settle(m)
-		tip = nodesWhere(m, lambda x, y: (x > 1 - 1e-9) & (y < 1e-9))
-		return -(m.position - m.reference)[tip, 1].mean()
-
-	assert 0.8 * 1.5e-4 < deflection() < 1.02 * 1.5e-4 * 1.05
+	q L^4 / 8 E' I = 1.41e-4 m with E' = E / (1 - nu^2) in plane strain; shear adds q L^2 / 2 (5/6) G A = 1e-6 m. Constant-strain zones of a
+	quarter of the depth are within 15 % of that, and too stiff or, turned in cells of unlike diagonals, too soft. With edges left undivided it was 4.4e-6 m."""
+	O.reset()
+	young, poisson, density, gravity, depth = 20e9, .2, 2000, 9.81, .1
+	O.materials.append(BlockMat(label='unit', young=young, poisson=poisson, density=density))
+	O.materials.append(BlockMat(label='mortar', young=young, poisson=poisson, density=1e-6))
+	m = BlockModel(thickness=1)
+	m.addRegion(R(.95, depth, 1, depth + .05), 'mortar', zoneSize=.05)
+	m.addRegion(R(0, 0, 1, depth), 'unit', zoneSize=.025)
+	m.bond()
+	m.drive('clamp', nodesWhere(m, lambda x, y: x < 1e-9), 'xy')
+	m.gravity((0, -gravity))
+	m.insert()
+	O.dt = 1e-3
+	O.engines = engines(strong(), alpha=.5)
+	O.run(20000, True) # the longest wave crosses a hundred grid points; two thousand steps are a few of its periods
+	deflection = (m.reference - m.position)[nodesWhere(m, lambda x, y: (x > 1 - 1e-9) & (y < 1e-9)), 1]
+	load, stiffness = density * gravity * depth, young / (1 - poisson**2) * depth**3 / 12
+	theory = load / (8 * stiffness) + load / (2 * 5 / 6 * young / (2 * (1 + poisson)) * depth)
+	assert deflection == pytest.approx([theory], rel=.15)
 
 
 # ---- holes
@@ -148,15 +144,14 @@ def test_aHoleStaysEmpty():
 
 # ---- zonings that do not suit
 
-slivers = pytest.mark.xfail(strict=True, reason='a sliver is left: aspect 106 (seed 14), 5960 (seed 34)')
 
-
-@pytest.mark.parametrize('seed', [pytest.param(s, marks=slivers) if s in (14, 34) else s for s in range(40)])
-def test_cellsRoundAHole(seed):
-	m = fresh()
-	around = m.addVoronoi(square, 'unit', size=.3, seed=seed, holes=[R(.45, .45, .55, .55)])
-	assert m.zoneVolume.sum() == pytest.approx(.99, rel=1e-12) and m.zoneQuality()['worstAspect'] < 100
-	assert sum(around['zoning'].values()) == m.blockCount == around['blocks'][1]
+def test_cellsRoundAHole():
+	"""Forty tessellations round a hole that most cells see past a corner only: none is refused, no zone is a sliver."""
+	for seed in range(40):
+		m = fresh()
+		around = m.addVoronoi(square, 'unit', size=.3, seed=seed, holes=[R(.45, .45, .55, .55)[::-1]])
+		assert m.zoneVolume.sum() == pytest.approx(.99, rel=1e-12) and m.zoneQuality()['worstAspect'] < 30, seed
+		assert sum(around['zoning'].values()) == m.blockCount == around['blocks'][1]
 
 
 def test_zoningsAreCounted():

@@ -22,7 +22,7 @@ def test_anInterruptActsDuringTheLoading(number, code, tmp_path):
 	assert last == 'tension: %s: no seed was done' % signal.Signals(number).name and 'Traceback' not in text
 	assert time.monotonic() - asked < 1 + 5 * os.getloadavg()[0] / os.cpu_count() # a second, on a machine that does nothing else
 	rows = (tmp_path / 'out/tension/unfinished.csv').read_text().splitlines()
-	assert rows[0] == 'displacement,stress,broken,unbalanced' and len(rows) > 2
+	assert rows[0] == 'displacement,stress,broken,yielded,unbalanced' and len(rows) > 2
 
 
 def test_whatIsDoneIsThere(tmp_path):

@@ -1,11 +1,16 @@
 # yade-blocks, GPL-2.0-or-later
 """BlockModel.follow: from event to event, and on in time steps."""
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from scenes import *
 from yadeblocks import loading
 from yadeblocks.specimen import Gauge
+
+scripts = Path(differences.__code__.co_filename).parents[2] / 'scripts'
 
 
 def test_goes_on_without_a_jump_in_force():
@@ -57,7 +62,8 @@ def test_platens_are_followed_and_leapt_with():
 		O.bodies[model.bodyOf(block)].state.blockedDOFs = 'xyzXYZ'
 		O.bodies[model.bodyOf(block)].state.vel = (0, velocity, 0)
 	O.dt = 1e-4
-	O.engines = [ForceResetter()] + engines(glued(frictionAngle=0, cohesion=1e12, dilationAngle=0))[:-1] + [NewtonIntegrator(damping=0.3), BlockIntegrator(rescueFile='')]
+	O.engines = [ForceResetter()] + engines(glued(frictionAngle=0, cohesion=1e12, dilationAngle=0)
+						)[:-1] + [NewtonIntegrator(damping=0.3), BlockIntegrator(rescueFile='')]
 	O.run(1, True)
 	compliance = 0.2 / brick['young'] + 2 / glue['kn']
 	strength, tension = compliance * glue['tension'], glue['tension']
@@ -92,3 +98,43 @@ def test_refusals():
 	model.release('bottom')
 	with pytest.raises(RuntimeError, match='hold them: block'):
 		model.follow('top')
+
+
+@pytest.mark.parametrize(
+	'arguments, peak', [
+		(['tension', 'case=TT3'], 'peak_tensile_stress'),
+		(['shear', 'size=7e-3', 'afterPeak=false'], 'peak_shear_stress'),
+	]
+)
+def test_scenarios_by_events(tmp_path, arguments, peak):
+	"""solver=events: the curve begins near nothing, the strength is not below the first crack, and equilibrium holds to rounding."""
+	run = runYade(scripts / (arguments[0] + '.py'), *arguments[1:], 'solver=events', 'vtk=false', cwd=tmp_path)
+	assert run.returncode == 0, run.stderr
+	result = json.loads((tmp_path / 'out' / arguments[0] / 'result.json').read_text())
+	measured = {quantity['name']: quantity['measured'] for quantity in result['quantities']}
+	assert result['complete'] and result['cost']['steps'] == 0
+	assert measured[peak] >= measured['first_crack_stress'] > 0
+	assert result['quality']['unbalanced_ratio_max'] < 1e-10 # 1e6 roundings
+	curve = np.genfromtxt(tmp_path / 'out' / arguments[0] / 'curve.csv', delimiter=',', names=True)
+	assert abs(curve['stress_MPa'][0]) < 0.01 * measured[peak] # the precompression alone, on lopsided blocks
+	assert curve['stress_MPa'].max() == pytest.approx(measured[peak], rel=1e-6)
+	assert (np.diff(curve['broken']) >= 0).all()
+
+
+def test_goes_on_in_time_steps_behind_the_peak(tmp_path):
+	"""Shear by events up to the peak, then in steps: the stress does not jump, and comes down to friction."""
+	run = runYade(scripts / 'shear.py', 'size=7e-3', 'solver=events', 'stroke=0.3e-3', 'steps=3000', 'vtk=false', cwd=tmp_path)
+	assert run.returncode == 0, run.stderr
+	curve = np.genfromtxt(tmp_path / 'out' / 'shear' / 'curve.csv', delimiter=',', names=True)
+	stress, top = curve['stress_MPa'], curve['stress_MPa'].argmax()
+	assert len(stress) > top + 10
+	assert stress[top + 1] == pytest.approx(stress[top], rel=0.01) # what small displacement left out
+	assert 0.5 * 0.5 < stress[-1] < 0.8 * stress[top] # tan 36 degrees x 0.5, more or less
+
+
+def test_scenarios_refuse_what_events_have_not(tmp_path):
+	for script, words, text in (('tension', ['solver=events', 'halfRate=true'],
+					'solver=events has no rate'), ('compression', ['solver=events', 'servo=true'], 'solver=events has no rate'),
+					('shear', ['afterPeak=false'], 'afterPeak=false needs solver=events')):
+		run = runYade(scripts / (script + '.py'), *words, cwd=tmp_path)
+		assert run.returncode == 2 and text in run.stderr

@@ -10,6 +10,7 @@ import signal
 import pytest
 
 from processes import *
+from yadeblocks import recording, running
 
 quick = { # some seconds each, with cracks
 	'tension': ['case=TT3', 'alpha=0.3', 'steps=800000', 'seeds=2', 'vtk=false'],
@@ -19,9 +20,34 @@ quick = { # some seconds each, with cracks
 kills = int(os.environ.get('KILLS', 5))
 
 
-# A fault that is known: tension and shear that were killed and resumed have come to other results than runs that were left alone,
-# in some of the tries. The cause is not found; the model itself, saved and loaded in the middle, goes on with the same bits (test_step.py).
-@pytest.mark.xfail(reason='a resumed run does not always come to the same result', strict=False)
+def test_aPauseIsBetweenTwoSteps():
+	"""A run rests with whole steps only, also where a step is much longer than the 40 ms in which O.run looks whether it has ended."""
+	O.reset()
+	begun, done, paused = [], [], []
+	slow = lambda: begun.append(O.iter) or time.sleep(0.08) # lets go of the interpreter, as engines do
+	O.engines = [recording.runner('slow', slow), recording.runner('done', lambda: done.append(O.iter))]
+	running.run(12, pause=lambda: paused.append((begun[-1], done[-1], O.iter)), every=0.13)
+	assert len(paused) >= 3 and all(begun == done == now - 1 for begun, done, now in paused), paused
+	assert begun == done == list(range(1, 12)) and O.iter == 12 # a PyRunner leaves out the first step
+
+
+def test_anEndIsNotForgottenForAPause():
+	"""Pauses as often as possible in a run of very many steps: it stops at the step that asked for it, also if a pause was being asked for just then."""
+	for wanted in range(100, 120, 2):
+		O.reset()
+		paused = []
+		O.engines = [recording.runner('end', lambda: O.iter == wanted and running.end())]
+		running.run(pause=lambda: paused.append(O.iter), every=0.001)
+		assert O.iter == wanted + 1 and paused == sorted(set(paused)) and all(0 < now <= wanted for now in paused)
+
+
+def test_aPauseThatComesTooLateIsAskedForAgain():
+	O.reset()
+	O.engines, paused = [], []
+	running.run(3000000, pause=lambda: paused.append(O.iter), every=0.2)
+	assert paused and O.iter == 3000000
+
+
 @pytest.mark.parametrize('name', list(quick))
 def test_killedAndResumed(name, tmp_path):
 	"""Killed at random moments again and again; each time resume=true goes on. In the end nothing but the cost tells it from the run left alone."""

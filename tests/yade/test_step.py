@@ -12,15 +12,15 @@ from yadeblocks.specimen import nodesWhere, rectangle
 from scenes import glued, materials
 
 
-def scene(kind, native=False, energy=False, interactions=True):
+def scene(kind, native=False, energy=False, interactions=True, joints=None):
 	"""A couplet of 40 x 50 mm with 13 mortar blocks: pulled, sheared under pressure, or crushed, until joints have broken."""
 	materials()
 	model = BlockModel(thickness=0.05)
 	model.addVoronoi(rectangle(0, 0.01, 0.04, 0.02), 'mortar', size=6e-3, seed=3)
 	model.addRegion(rectangle(0, 0, 0.04, 0.01), 'unit', zoneSize=5e-3)
 	model.addRegion(rectangle(0, 0.02, 0.04, 0.03), 'unit', zoneSize=5e-3)
-	properties = glued(cohesion=0.3e6 if kind == 'compression' else 0.6e6)
-	model.bond([] if native else properties)
+	properties = joints or glued(cohesion=0.3e6 if kind == 'compression' else 0.6e6)
+	model.bond([] if native and not joints else properties)
 	top = nodesWhere(model, lambda x, y: y > 0.03 - 1e-9)
 	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
 	if kind == 'tension': model.drive('top', top, 'y', velocity=8e-6, rampTime=0.075)
@@ -33,7 +33,7 @@ def scene(kind, native=False, energy=False, interactions=True):
 	O.trackEnergy = energy
 	O.dt = 5e-4
 	motion = dict(alpha=0.3, rescueFile='')
-	O.engines = engineList(properties, contact=contact, **motion) if native else loopList(contact=contact, **motion)
+	O.engines = engineList([] if joints else properties, contact=contact, **motion) if native else loopList(contact=contact, **motion)
 	return model
 
 

@@ -13,6 +13,8 @@ namespace yade {
 BlockCrackRecorder::~BlockCrackRecorder() = default;
 
 namespace {
+	bool isCrack(int status) { return status == int(blocks::Joint::brokenInTension) || status == int(blocks::Joint::brokenInShear); }
+
 	const char* nameOf(int mode) { return mode == int(blocks::Joint::brokenInTension) ? "tension" : "shear"; }
 
 	/// Adds lines to a file, all of them or none: where they do not fit, the file keeps the whole lines that it had.
@@ -42,32 +44,35 @@ void BlockCrackRecorder::action()
 		known.clear();
 		for (blocks::Joint status : a.state.status)
 			known.push_back(int(status));
-		if (!fileName.empty()) visibly([&] { addLines(fileName, "step time x y nx ny mode body1 body2 material1 material2\n", std::ios::trunc); });
+		if (!fileName.empty())
+			visibly([&] { addLines(fileName, "step time x y nx ny mode body1 body2 material1 material2 damage\n", std::ios::trunc); });
 	}
 	bool takenBack = false; // a rescued state is older than what was seen: there are joints that are whole again
 	for (size_t i = 0; i < known.size() && !takenBack; ++i)
-		takenBack = known[i] != 0 && a.state.status[i] == blocks::Joint::intact;
+		takenBack = isCrack(known[i]) && !isCrack(int(a.state.status[i]));
 	if (takenBack) {
 		size_t kept = 0;
 		for (size_t e = 0; e < points.size(); ++e) {
-			if (a.state.status[points[e]] == blocks::Joint::intact) continue;
+			if (!isCrack(int(a.state.status[points[e]]))) continue;
 			points[kept] = points[e], modes[kept] = modes[e], steps[kept] = steps[e], times[kept] = times[e], positions[kept] = positions[e];
+			damages[kept] = damages[e];
 			++kept;
 		}
-		points.resize(kept), modes.resize(kept), steps.resize(kept), times.resize(kept), positions.resize(kept);
+		points.resize(kept), modes.resize(kept), steps.resize(kept), times.resize(kept), positions.resize(kept), damages.resize(kept);
 	}
 	const size_t before = points.size();
 	for (size_t i = 0; i < a.state.status.size(); ++i) {
 		const int status = int(a.state.status[i]);
 		if (status == known[i]) continue;
-		const bool earlier = known[i] != 0; // statuses only grow, but for a rescue
+		const bool earlier = isCrack(known[i]); // a crack stays one, but for a rescue
 		known[i]           = status;
-		if (earlier) continue;
+		if (earlier || !isCrack(status)) continue;
 		points.push_back(int(i));
 		modes.push_back(status);
 		steps.push_back(scene->iter);
 		times.push_back(scene->time);
 		positions.push_back(blocks::contactPosition(a, int(i)));
+		damages.push_back(blocks::damageOf(a, int(i)));
 	}
 	if (fileName.empty() || points.size() == before) return;
 	std::ostringstream file;
@@ -78,7 +83,7 @@ void BlockCrackRecorder::action()
 		const auto  frame = blocks::frameOf(a, points[e] / 2);
 		file << steps[e] << ' ' << times[e] << ' ' << positions[e].x() << ' ' << positions[e].y() << ' ' << frame.nx << ' ' << frame.ny << ' '
 		     << nameOf(modes[e]) << ' ' << model.firstBody + g.block[0] << ' ' << model.firstBody + g.block[1] << ' ' << labelOf(model, g.block[0])
-		     << ' ' << labelOf(model, g.block[1]) << '\n';
+		     << ' ' << labelOf(model, g.block[1]) << ' ' << damages[e] << '\n';
 	}
 	visibly([&] { addLines(fileName, file.str(), std::ios::app); });
 }
@@ -98,6 +103,7 @@ py::list BlockCrackRecorder::events() const
 		event["point"]     = points[e];
 		event["ids"]       = py::make_tuple(model.firstBody + g.block[0], model.firstBody + g.block[1]);
 		event["materials"] = py::make_tuple(labelOf(model, g.block[0]), labelOf(model, g.block[1]));
+		event["damage"]    = damages[e];
 		list.append(event);
 	}
 	return list;

@@ -1,18 +1,21 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/engines/BlockForces.hpp>
+#include <blocks/engines/EngineList.hpp>
 #include <blocks/engines/RigidBodies.hpp>
 #include <blocks/kernel/step/Step.hpp>
 #include <core/EnergyTracker.hpp>
 
 namespace yade {
 
+CREATE_CPP_LOCAL_LOGGER("BlockForces.cpp")
+
 BlockForces::~BlockForces() = default;
 
 void BlockForces::newScene()
 {
 	before     = {};
-	frictionId = fractureId = -1;
-	looked                  = false;
+	frictionId = fractureId = modeIId = modeIIId = capId = -1;
+	looked = saidSnapped = told = false;
 }
 
 void BlockForces::computeForces(BlockModel& model, int threads)
@@ -28,6 +31,10 @@ void BlockForces::computeForces(BlockModel& model, int threads)
 void BlockForces::lookAtEngines(BlockModel& model)
 {
 	const bool look = !looked || scene->iter % askPeriod == 0, rigid = !model.assembly.state.rigid.empty();
+	if (look) {
+		requireEngines(scene, model, stepsJoints());
+		requireUntouched(scene, model);
+	}
 	if (!look && !rigid) return;
 	noteFreedom(scene, model);
 	const Engine* newton = requireMovers(scene, model);
@@ -38,6 +45,10 @@ void BlockForces::lookAtEngines(BlockModel& model)
 	}
 	asked  = newton;
 	looked = true;
+	if (told) return;
+	told                = true;
+	const string remark = remarks(scene, model);
+	if (!remark.empty()) LOG_WARN(remark);
 }
 
 void BlockForces::step(BlockModel& model)
@@ -48,9 +59,23 @@ void BlockForces::step(BlockModel& model)
 	blocks::BlockAssembly& a = model.assembly;
 	if (!a.state.rigid.empty()) addRigidForces(scene, model);
 	model.forcesAt = scene->iter;
+	if (a.state.softened.snapped > 0 && !saidSnapped) {
+		saidSnapped = true;
+		LOG_WARN(
+			"step " << scene->iter
+				<< ": a contact point snapped back: it softens faster than its stiffness lets the stress fall. In shear ks must exceed c (c + "
+				   "p (tan phi - "
+				   "tan phi_res))/GfII under a pressure p. Its stress drops to the softening curve, and no energy comes of it. "
+				   "BlockModel.snappedBack counts them");
+	}
 	if (!scene->trackEnergy) return;
 	scene->energy->set(a.state.accounts.friction + blocks::contactFriction(a), "blockFriction", frictionId);
 	scene->energy->set(a.state.accounts.fracture, "blockFracture", fractureId);
+	const blocks::Softened& soft = a.state.softened;
+	if (soft.empty()) return;
+	scene->energy->set(soft.modeI, "blockModeI", modeIId);
+	scene->energy->set(soft.modeII, "blockModeII", modeIIId);
+	scene->energy->set(soft.cap, "blockCap", capId);
 }
 
 YADE_PLUGIN((BlockForces));

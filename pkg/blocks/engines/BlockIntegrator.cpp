@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/engines/BlockIntegrator.hpp>
+#include <blocks/engines/Rescue.hpp>
 #include <blocks/engines/RigidBodies.hpp>
 #include <blocks/kernel/analysis/Energy.hpp>
 #include <blocks/kernel/step/Step.hpp>
@@ -82,6 +83,7 @@ void BlockIntegrator::step(BlockModel& model)
 	blocks::StepWork work;
 	if (!a.state.rigid.empty()) work = followRigidBodies(scene, model);
 	work += blocks::move(a, law, scene->dt, scene->time, account, threadsFor(model, ompThreads));
+	if (watchPeriod > 0 && scene->stopAtIter == scene->iter + 1) lookAtEnd(model);
 	if (account) {
 		blocks::Accounts& booked = a.state.accounts;
 		booked.damping += booked.pendingDamping + work.dampingBefore;
@@ -102,7 +104,18 @@ void BlockIntegrator::watchStability(BlockModel& model)
 		return;
 	}
 
-	string     message = "unstable at step " + std::to_string(step) + ", block " + std::to_string(verdict.block) + ": " + verdict.reason;
+	stop(model, verdict);
+}
+
+void BlockIntegrator::lookAtEnd(BlockModel& model)
+{
+	const auto verdict = blocks::StabilityWatch::lookAtEnd(model.assembly);
+	if (!verdict.stable) stop(model, verdict);
+}
+
+void BlockIntegrator::stop(BlockModel& model, const blocks::StabilityWatch::Verdict& verdict)
+{
+	string     message = "unstable at step " + std::to_string(scene->iter) + ", block " + std::to_string(verdict.block) + ": " + verdict.reason;
 	const long good    = watch.restore(model.assembly);
 	if (good >= 0) {
 		restoreRigidBodies(scene, model);
@@ -110,16 +123,23 @@ void BlockIntegrator::watchStability(BlockModel& model)
 		model.stiffnessChanged();
 		scene->iter = good;
 		scene->time = watch.goodTime();
-		message += "; the last good state, of step " + std::to_string(good) + ", is put back";
-		if (!rescueFile.empty()) {
-			const int subStep = scene->subStep;
-			scene->subStep    = -1; // saved as between two steps
-			Omega::instance().saveSimulation(rescueFile, /*quiet*/ true);
-			scene->subStep = subStep;
-			message += " and saved as " + rescueFile;
-		}
+		message += "; the last good state, of step " + std::to_string(good) + ", is put back" + rescued();
 	}
 	throw std::runtime_error(message);
+}
+
+/// Saves the scene as between two steps; what is to be said of it.
+string BlockIntegrator::rescued()
+{
+	if (rescueFile.empty()) return "";
+	struct Between {
+		Scene*    scene;
+		const int subStep = scene->subStep;
+		~Between() { scene->subStep = subStep; }
+	} between { scene };
+	scene->subStep       = -1;
+	const string trouble = saveScene(rescueFile);
+	return trouble.empty() ? " and saved as " + rescueFile : ", but could not be saved: " + trouble;
 }
 
 YADE_PLUGIN((BlockIntegrator));

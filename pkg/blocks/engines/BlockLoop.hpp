@@ -20,6 +20,13 @@ public:
 
 protected:
 	void computeForces(BlockModel&, int threads) override;
+	bool stepsJoints() const override { return true; }
+
+private:
+	void requireContactJoints(const BlockModel&);
+
+	long        knownContacts = -1; ///< version of the contacts at which `incomplete` was listed
+	vector<int> incomplete;         ///< contacts without properties
 };
 REGISTER_SERIALIZABLE(BlockLoop);
 

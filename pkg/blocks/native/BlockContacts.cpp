@@ -44,7 +44,7 @@ void BlockContacts::step(BlockModel& model)
 	}
 	started    = true;
 	bodiesSeen = scene->bodies->size();
-	blocks::prepareContacts(a);
+	blocks::prepareContacts(a, scene->dt);
 	showContacts(scene, model);
 	colliderRuns = a.contacts.looks;
 }

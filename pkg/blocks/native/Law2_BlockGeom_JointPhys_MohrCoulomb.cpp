@@ -9,10 +9,14 @@ Law2_BlockGeom_JointPhys_MohrCoulomb::~Law2_BlockGeom_JointPhys_MohrCoulomb() = 
 
 bool Law2_BlockGeom_JointPhys_MohrCoulomb::go(shared_ptr<IGeom>& geom, shared_ptr<IPhys>&, Interaction*)
 {
-	const auto* g = static_cast<const BlockGeom*>(geom.get());
-	auto&       a = g->model->assembly;
-	if (g->pair >= 0) blocks::advanceStresses(a, blocks::jointsOf(a, g->pair), blocks::Brittle {});
-	if (g->contact >= 0) blocks::advanceContact(a, g->contact, scene->dt);
+	const auto* g = dynamic_cast<const BlockGeom*>(geom.get());
+	if (!g || !g->model) return true; // Ig2_Block_Block_BlockGeom has complained
+	auto& a = g->model->assembly;
+	if (g->pair >= 0) blocks::withOwnLaw(a, [&](const auto& law) { blocks::advanceStresses(a, blocks::jointsOf(a, g->pair), law); });
+	if (g->contact >= 0) {
+		if (const string missing = g->model->withoutJoint(g->contact); !missing.empty()) g->model->complain(missing);
+		blocks::advanceContact(a, g->contact, scene->dt);
+	}
 	return g->pair >= 0 || g->contact >= 0; // blocks that have parted are no more
 }
 

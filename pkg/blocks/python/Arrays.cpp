@@ -1,11 +1,14 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/kernel/analysis/Energy.hpp>
+#include <blocks/kernel/analysis/StabilityWatch.hpp>
 #include <blocks/kernel/geometry/Zoning.hpp>
 #include <blocks/kernel/model/Fingerprint.hpp>
+#include <blocks/kernel/step/Contacts.hpp>
 #include <blocks/kernel/step/Joints.hpp>
 #include <blocks/kernel/step/ZoneForces.hpp>
 #include <blocks/python/ModelPython.hpp>
 #include <blocks/python/Numpy.hpp>
+#include <core/Omega.hpp>
 
 /// The model's arrays and what is measured on them.
 namespace yade {
@@ -35,6 +38,17 @@ namespace {
 	}
 
 	BlockAssembly& arrays(const py::object& self) { return py::extract<BlockModel&>(self)().assembly; }
+
+	/// A view, as long as no joint has become a free contact.
+	py::object pointStress(const py::object& self, std::vector<Real> blocks::PointStresses::*which, std::vector<Real>& column)
+	{
+		const auto& released = arrays(self).state.released;
+		if (std::find(released.begin(), released.end(), true) == released.end()) return view<Real>(self, column, 1, Use::result);
+		blocks::PointStresses all = blocks::pointStresses(arrays(self), 0, arrays(self).joints.count());
+		const py::object      out = numpyOf(all.*which, false).attr("copy")();
+		out.attr("setflags")(false);
+		return out;
+	}
 
 	py::object zoneStress(const py::object& self)
 	{
@@ -85,6 +99,18 @@ namespace {
 			const Vec2 x = blocks::contactPosition(a, int(i));
 			data[2 * i] = x.x(), data[2 * i + 1] = x.y();
 		}
+		return out;
+	}
+
+	py::object damages(const py::object& self)
+	{
+		BlockAssembly& a = arrays(self);
+		startNumpy();
+		np::ndarray out  = np::empty(py::make_tuple(a.pointCount()), np::dtype::get_builtin<Real>());
+		Real*       data = reinterpret_cast<Real*>(out.get_data());
+		for (int i = 0; i < a.pointCount(); ++i)
+			data[i] = blocks::damageOf(a, i);
+		out.attr("setflags")(false);
 		return out;
 	}
 
@@ -142,11 +168,19 @@ namespace {
 		return text;
 	}
 
+	long snappedBack(const BlockModel& m) { return m.assembly.state.softened.snapped; }
 	int  blockCount(const BlockModel& m) { return m.assembly.blockCount(); }
 	int  nodeCount(const BlockModel& m) { return m.assembly.nodeCount(); }
 	int  zoneCount(const BlockModel& m) { return m.assembly.zoneCount(); }
 	int  contactCount(const BlockModel& m) { return m.assembly.pointCount(); }
 	Real unbalancedRatio(const BlockModel& m, Real floor) { return blocks::unbalancedRatio(m.assembly, floor); }
+	Real unrest(const BlockModel& m, Real floor) { return blocks::unrest(m.assembly, Omega::instance().getScene()->time, floor); }
+
+	void requireSound(const BlockModel& m)
+	{
+		const auto verdict = blocks::StabilityWatch::lookAtEnd(m.assembly);
+		if (!verdict.stable) throw std::runtime_error("unstable, block " + std::to_string(verdict.block) + ": " + verdict.reason);
+	}
 	Real kineticEnergy(const BlockModel& m) { return blocks::kineticEnergy(m.assembly); }
 
 } // namespace
@@ -155,7 +189,13 @@ void defineArrays(PythonModel& c)
 {
 	using py::arg;
 	// clang-format off
-	c.def("unbalancedRatio",
+	c.def("requireSound", &requireSound, "Raises RuntimeError where the motion of a grid point is not a number or a zone is inside out. Runs are looked at by themselves, see BlockMotion.watchPeriod.")
+		.def("unrest",
+	             &unrest,
+	             (arg("floor") = 0.),
+	             "How far the scene is from rest [-]: unbalanced forces by the largest sum of loads, of forces of groups and twice those of contacts, or kinetic energy by that of zones "
+	             "and joints, if this is more. Infinite while a group is within its ramp. floor: least sum of forces that counts [N].")
+		.def("unbalancedRatio",
 	             &unbalancedRatio,
 	             (arg("floor") = 0.),
 	             "Sum of unbalanced |force| over free degrees of freedom (of rigid blocks: of their bodies, without moments) by twice the sum of contact "
@@ -201,9 +241,11 @@ void defineArrays(PythonModel& c)
 		.add_property("normal", py::make_function(&normals), "Unit normals of the joints, out of the first block, shape (segments, 2). A copy.")
 		.add_property("pointOpening", py::make_function(&motion<&blocks::State::opening>), "Openings of the contact points, two a joint [m].")
 		.add_property("pointSlip", py::make_function(&motion<&blocks::State::slip>), "Slips of the contact points [m].")
-		.add_property("pointSigma", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).state.sigma, 1, Use::result); }), "Normal stresses of the contact points, tension positive [Pa].")
-		.add_property("pointTau", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).state.tau, 1, Use::result); }), "Shear stresses of the contact points [Pa].")
-		.add_property("pointStatus", py::make_function(+[](py::object self) -> py::object { return view<std::uint8_t>(self, arrays(self).state.status, 1, Use::result); }), "0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded.");
+		.add_property("pointSigma", py::make_function(+[](py::object self) -> py::object { return pointStress(self, &blocks::PointStresses::sigma, arrays(self).state.sigma); }), "Normal stresses of the contact points, tension positive [Pa]; where a joint has become a free contact, those of the edges that took its place (then a copy).")
+		.add_property("pointTau", py::make_function(+[](py::object self) -> py::object { return pointStress(self, &blocks::PointStresses::tau, arrays(self).state.tau); }), "Shear stresses of the contact points, as pointSigma [Pa].")
+		.add_property("pointStatus", py::make_function(+[](py::object self) -> py::object { return view<std::uint8_t>(self, arrays(self).state.status, 1, Use::result); }), "0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded, 4 softening: beyond its peak. A joint that softens counts as broken from a damage of 0.9 on.")
+		.add_property("pointDamage", py::make_function(&damages), "Damage of the contact points: 0 whole or never bonded, 1 nothing but residual strength is left; joints that do not soften have no other values. A copy.")
+		.add_property("snappedBack", &snappedBack, "How often a contact point of a joint that softens has snapped back: its pressure was too high for the stress to follow the softening curve, and it dropped to it.");
 	// clang-format on
 }
 

@@ -28,9 +28,8 @@ const char* const followDoc
 	= "Follows the loading along one group from event to event (failure, slip, stick, opening, closing), the exact quasi-static answer of the brittle "
 	  "model "
 	  "in small displacement: no rate, damping or mass. All other loads act fully and stay; forces that engines put on rigid blocks' bodies are not known. "
-          "It may be called after the first step, which brings the "
-	  "joints' "
-	  "properties (Mohr-Coulomb), and leaves the model in the state reached, from where time steps go on at the group's full speed (a group's force: stays "
+	  "Joints must have their properties (Mohr-Coulomb), from bond() or from a first step. It leaves the model in the state reached, from where time steps "
+          "go on at the group's full speed (a group's force: stays "
 	  "as reached). "
 	  "group: name of a driven or pushed group, followed in the direction of its target, or index of a rigid block whose body has a prescribed velocity. "
 	  "It ends by whichever comes first: the force has fallen below drop (0: do not ask) of its largest value, after which peak=True goes back to that "
@@ -52,7 +51,7 @@ const char* const followDoc
 	  "by the largest force at "
 	  "a contact point); looseBlocks, tied by soft springs whose largest force is anchorForce [N]. "
 	  "Errors: RuntimeError for a group without target, blocks that nothing holds (with their indices), joints without properties or softening, blocks "
-          "that touch "
+	  "that touch "
 	  "without a joint; ValueError for "
 	  "values out of range. Nothing is changed then.";
 

@@ -1,4 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
+#include <blocks/kernel/model/StrengthField.hpp>
+#include <blocks/kernel/step/Joints.hpp>
 #include <blocks/python/ModelPython.hpp>
 #include <blocks/python/Numpy.hpp>
 #include <boost/python/raw_function.hpp>
@@ -8,7 +10,9 @@
 namespace yade {
 
 namespace np = boost::python::numpy;
+using blocks::CapParams;
 using blocks::JointParams;
+using blocks::SofteningParams;
 
 namespace {
 
@@ -16,7 +20,19 @@ namespace {
 		const char* name;
 		Real JointParams::*member;
 		bool               isAngle;
+		Real SofteningParams::*softening = nullptr; ///< instead of `member`
+		Real CapParams::*cap             = nullptr; ///< likewise
 	};
+
+	/// All properties of a joint.
+	struct Joint {
+		JointParams     params;
+		SofteningParams softening;
+
+		Real& operator[](const Property& p) { return p.cap ? softening.cap.*p.cap : p.softening ? softening.*p.softening : params.*p.member; }
+	};
+	Joint jointOf(const BlockModel& model, int joint) { return { model.assembly.joints.of(joint), model.assembly.joints.softeningOf(joint) }; }
+
 	const Property properties[] = { { "kn", &JointParams::kn, false },
 		                        { "ks", &JointParams::ks, false },
 		                        { "cohesion", &JointParams::cohesion, false },
@@ -26,7 +42,19 @@ namespace {
 		                        { "tensionResidual", &JointParams::tensionResidual, false },
 		                        { "frictionAngleResidual", &JointParams::tanPhiResidual, true },
 		                        { "dilationAngle", &JointParams::tanDilation, true },
-		                        { "dilationLimitSlip", &JointParams::dilationLimitSlip, false } };
+		                        { "dilationLimitSlip", &JointParams::dilationLimitSlip, false },
+		                        { "GfI", nullptr, false, &SofteningParams::energyI },
+		                        { "GfII", nullptr, false, &SofteningParams::energyII },
+		                        { "lastingShare", nullptr, false, &SofteningParams::lastingShare },
+		                        { "dilationDecay", nullptr, false, &SofteningParams::dilationDecay },
+		                        { "dilationPressure", nullptr, false, &SofteningParams::dilationPressure },
+		                        { "capStrength", nullptr, false, nullptr, &CapParams::strength },
+		                        { "capFirst", nullptr, false, nullptr, &CapParams::first },
+		                        { "capResidual", nullptr, false, nullptr, &CapParams::residual },
+		                        { "capPeakClosure", nullptr, false, nullptr, &CapParams::peakClosure },
+		                        { "capEnergy", nullptr, false, nullptr, &CapParams::energy },
+		                        { "capShear", nullptr, false, nullptr, &CapParams::shear },
+		                        { "capLinear", nullptr, false, nullptr, &CapParams::linear } };
 
 	py::dict jointProperties(const BlockModel& model)
 	{
@@ -36,8 +64,10 @@ namespace {
 		for (const Property& p : properties) {
 			np::ndarray column = np::empty(py::make_tuple(joints.count()), np::dtype::get_builtin<Real>());
 			Real*       data   = reinterpret_cast<Real*>(column.get_data());
-			for (int i = 0; i < joints.count(); ++i)
-				data[i] = p.isAngle ? std::atan(joints.of(i).*p.member) : joints.of(i).*p.member;
+			for (int i = 0; i < joints.count(); ++i) {
+				const Real value = jointOf(model, i)[p];
+				data[i]          = p.isAngle ? std::atan(value) : value;
+			}
 			out[p.name] = column;
 		}
 		return out;
@@ -58,6 +88,21 @@ namespace {
 		return out;
 	}
 
+	/// Joints by their indices; None: all.
+	vector<long> chosenJoints(const BlockModel& model, const py::object& which, const string& method)
+	{
+		const int    count = model.assembly.joints.count();
+		vector<long> chosen;
+		if (which.is_none())
+			for (int i = 0; i < count; ++i)
+				chosen.push_back(i);
+		else
+			chosen = integers(which);
+		for (long i : chosen)
+			blocks::require(i >= 0 && i < count, method + ": no such joint; joints has indices of segments", Real(i));
+		return chosen;
+	}
+
 	py::object setJoints(py::tuple args, py::dict keywords)
 	{
 		if (py::len(args) > 2)
@@ -65,23 +110,16 @@ namespace {
 		BlockModel& model = py::extract<BlockModel&>(args[0]);
 		auto&       a     = model.assembly;
 		if (a.joints.count() == 0) throw std::runtime_error("BlockModel.setJoints: there are no joints yet; call bond() first");
-		vector<long> chosen;
-		py::object   which = py::len(args) == 2 ? py::object(args[1]) : py::object();
+		py::object which = py::len(args) == 2 ? py::object(args[1]) : py::object();
 		if (keywords.has_key("joints")) {
 			which = keywords["joints"];
 			keywords["joints"].del();
 		}
-		if (which.is_none())
-			for (int i = 0; i < a.joints.count(); ++i)
-				chosen.push_back(i);
-		else
-			chosen = integers(which);
-		for (long i : chosen)
-			blocks::require(i >= 0 && i < a.joints.count(), "BlockModel.setJoints: no such joint; joints has indices of segments", Real(i));
+		const vector<long> chosen = chosenJoints(model, which, "BlockModel.setJoints");
 
-		vector<JointParams> changed;
+		vector<Joint> changed;
 		for (long i : chosen)
-			changed.push_back(a.joints.of(int(i)));
+			changed.push_back(jointOf(model, int(i)));
 		const py::list names = keywords.keys();
 		for (long k = 0; k < py::len(names); ++k) {
 			const string name = py::extract<string>(names[k]);
@@ -99,15 +137,50 @@ namespace {
 						values[i] >= 0 && values[i] < M_PI / 2,
 						"BlockModel.setJoints: " + name + " must lie in [0, pi/2) rad",
 						values[i]);
-				changed[i].*p->member = p->isAngle ? std::tan(values[i]) : values[i];
+				changed[i][*p] = p->isAngle ? std::tan(values[i]) : values[i];
 			}
 		}
-		for (const JointParams& p : changed)
-			blocks::validate(p); // all before any is set
+		for (size_t i = 0; i < chosen.size(); ++i) // all before any is set
+			a.requireChangeable(int(chosen[i]), changed[i].params, changed[i].softening);
 		for (size_t i = 0; i < chosen.size(); ++i)
-			a.changeJoint(int(chosen[i]), changed[i]);
+			a.changeJoint(int(chosen[i]), changed[i].params, changed[i].softening);
 		model.stiffnessChanged();
 		return py::object();
+	}
+
+	py::object scatterStrengths(BlockModel& model, Real cov, Real correlationLength, long seed, const string& kind, const py::object& which)
+	{
+		auto& a = model.assembly;
+		if (a.joints.count() == 0) throw std::runtime_error("BlockModel.scatterStrengths: there are no joints yet; call bond() first");
+		model.requireProperties();
+		if (kind != "weibull" && kind != "lognormal")
+			throw std::invalid_argument("BlockModel.scatterStrengths: kind must be 'weibull' or 'lognormal', got '" + kind + "'");
+		blocks::require(seed >= 0, "BlockModel.scatterStrengths: seed must not be negative", Real(seed));
+		const auto chosen = chosenJoints(model, which, "BlockModel.scatterStrengths");
+
+		vector<blocks::Vec2> places;
+		for (long i : chosen)
+			places.push_back((blocks::contactPosition(a, 2 * int(i)) + blocks::contactPosition(a, 2 * int(i) + 1)) / 2);
+		blocks::StrengthScatter scatter;
+		scatter.kind              = kind == "weibull" ? blocks::StrengthScatter::Kind::weibull : blocks::StrengthScatter::Kind::lognormal;
+		scatter.cov               = cov;
+		scatter.correlationLength = correlationLength;
+		scatter.seed              = std::uint64_t(seed);
+		const vector<Real> factor = blocks::strengthFactors(places, scatter);
+
+		vector<Joint> changed;
+		for (size_t i = 0; i < chosen.size(); ++i) {
+			JointParams& p = changed.emplace_back(jointOf(model, int(chosen[i]))).params;
+			p.tension      = p.tensionResidual + factor[i] * (p.tension - p.tensionResidual);
+			p.cohesion     = p.cohesionResidual + factor[i] * (p.cohesion - p.cohesionResidual);
+			a.requireChangeable(int(chosen[i]), p, changed.back().softening);
+		}
+		for (size_t i = 0; cov > 0 && i < chosen.size(); ++i)
+			a.changeJoint(int(chosen[i]), changed[i].params, changed[i].softening);
+		startNumpy();
+		np::ndarray out = np::empty(py::make_tuple(factor.size()), np::dtype::get_builtin<Real>());
+		std::copy(factor.begin(), factor.end(), reinterpret_cast<Real*>(out.get_data()));
+		return out;
 	}
 
 } // namespace
@@ -119,14 +192,27 @@ void defineJoints(PythonModel& c)
 		 &jointProperties,
 		 "Properties of all joints as a dictionary of columns, one entry a segment: kn, ks [Pa/m], cohesion, tension, cohesionResidual, "
 		 "tensionResidual [Pa], "
-		 "frictionAngle, frictionAngleResidual, dilationAngle [rad], dilationLimitSlip [m]. Copies; :yref:`setJoints<BlockModel.setJoints>` changes "
+		 "frictionAngle, frictionAngleResidual, dilationAngle [rad], dilationLimitSlip [m]; of joints that soften GfI, GfII [J/m2], lastingShare [-], "
+		 "dilationDecay [1/m], dilationPressure [Pa] and those of the cap, as in :yref:`JointMat`. Copies; :yref:`setJoints<BlockModel.setJoints>` "
+	         "changes "
 		 "them.")
 		.def("setJoints",
 	             py::raw_function(&setJoints, 1),
 	             "setJoints(joints=None, kn=..., ks=..., cohesion=..., ...): new properties for the given joints (indices of segments; None: all), each "
 	             "one "
 	             "number or one for each of them; names as in :yref:`jointProperties<BlockModel.jointProperties>`. So joints of a region or of a list can "
-	             "have their own. Reaches masses and time step. Errors: ValueError for impossible values and unknown names; nothing is changed then.");
+	             "have their own. Reaches masses and time step. Errors: ValueError for impossible values and unknown names; nothing is changed then.")
+		.def("scatterStrengths",
+	             &scatterStrengths,
+	             (py::arg("cov"), py::arg("correlationLength") = 0., py::arg("seed") = 1, py::arg("kind") = "weibull", py::arg("joints") = py::object()),
+	             "Strengths that differ from joint to joint: tension and cohesion, as far as they exceed the residual ones, times a random factor of mean "
+	             "1, "
+	             "the same for both. cov: standard deviation by mean, in [0, 1]; correlationLength: of the field, whose correlation is e^(-(r/length)^2), "
+	             "0: "
+	             "none [m]; seed: of the field; kind: distribution, 'weibull' or 'lognormal'; joints: indices of segments, None: all. Once, before the "
+	             "first "
+	             "step; nothing is kept of it but the strengths. Returns the factors. Errors: ValueError for impossible values, and where a joint that "
+	             "softens would snap back.");
 }
 
 } // namespace yade

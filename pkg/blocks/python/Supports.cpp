@@ -3,6 +3,7 @@
 #include <blocks/python/Follow.hpp>
 #include <blocks/python/ModelPython.hpp>
 #include <core/Omega.hpp>
+#include <limits>
 
 /// Groups, loads, the elastic jump.
 namespace yade {
@@ -14,11 +15,19 @@ vector<long> integers(const py::object& sequence)
 	const py::object list = py::import("numpy").attr("asarray")(sequence).attr("ravel")().attr("tolist")();
 	vector<long>     out;
 	for (long i = 0; i < py::len(list); ++i)
-		out.push_back(py::extract<long>(list[i]));
+		out.push_back(py::extract<long>(list[i])); // too large for a long: Python says so
 	return out;
 }
 
 namespace {
+
+	/// Within what an int holds; the assembly knows how many there are.
+	int inRange(long index, const string& what)
+	{
+		constexpr long most = std::numeric_limits<int>::max() / 2;
+		if (index < -most || index > most) throw std::invalid_argument(what + " must be an index that exists, got " + std::to_string(index));
+		return int(index);
+	}
 
 	MotionGroup groupOf(const string& name, const py::object& nodes, const string& axes, Real rampTime, Real startTime)
 	{
@@ -31,7 +40,7 @@ namespace {
 				throw std::invalid_argument("motion group \"" + name + "\": axes must be 'x', 'y' or 'xy', got '" + axes + "'");
 		for (long node : integers(nodes))
 			for (char axis : axes)
-				g.dofs.push_back(int(2 * node + (axis - 'x')));
+				g.dofs.push_back(int(2 * inRange(node, "motion group \"" + name + "\": a grid point") + (axis - 'x')));
 		return g;
 	}
 
@@ -81,7 +90,29 @@ namespace {
 		blocks::require(throttle >= 0 && throttle <= 1, "motion group \"" + name + "\": throttle must lie in [0, 1]", throttle);
 		model.group(name).throttle = throttle;
 	}
-	Real     force(BlockModel& model, const string& name) { return model.group(name).force; }
+	/// Along one of a group's axes; the parts of two axes accelerate alike.
+	Real force(BlockModel& model, const string& name, const string& axis)
+	{
+		const MotionGroup&           g          = model.group(name);
+		const blocks::BlockAssembly& a          = model.assembly;
+		Vector2r                     resistance = Vector2r::Zero(), inertia = Vector2r::Zero();
+		bool                         on[2] = { false, false };
+		for (int dof : g.dofs) {
+			resistance[dof % 2] -= a.forces.nodal[dof / 2][dof % 2];
+			inertia[dof % 2] += a.state.inertia[dof / 2];
+			on[dof % 2] = true;
+		}
+		if (axis.empty()) {
+			if (on[0] && on[1]
+			    && PyErr_WarnEx(PyExc_UserWarning, "groupForce of a group along 'xy' is Fx + Fy unless axis='x' or axis='y' is given", 1))
+				throw py::error_already_set();
+			return g.force;
+		}
+		if (axis != "x" && axis != "y") throw std::invalid_argument("BlockModel.groupForce: axis must be 'x' or 'y', got '" + axis + "'");
+		const int k = axis == "y";
+		if (!on[k]) throw std::invalid_argument("motion group \"" + name + "\" does not act along '" + axis + "'");
+		return resistance[k] + (g.force - resistance.sum()) * inertia[k] / inertia.sum();
+	}
 	Real     velocity(BlockModel& model, const string& name) { return model.group(name).velocity; }
 	Real     travelled(BlockModel& model, const string& name) { return model.group(name).travelled; }
 	Real     work(BlockModel& model, const string& name) { return model.group(name).work; }
@@ -100,7 +131,7 @@ namespace {
 		const auto list = integers(edges);
 		if (list.empty()) throw std::invalid_argument("BlockModel.traction: no edges were chosen");
 		for (long edge : list)
-			blocks::addTraction(model.assembly, int(edge), stress);
+			blocks::addTraction(model.assembly, inRange(edge, "BlockModel.traction: an edge"), stress);
 	}
 
 } // namespace
@@ -125,7 +156,11 @@ void defineSupports(PythonModel& c)
 	             (arg("name"), arg("target"), arg("rampTime") = 0.),
 	             "New velocity [m/s] or force [N] of a group; with a rampTime [s] it starts from zero now.")
 		.def("setThrottle", &setThrottle, (arg("name"), arg("throttle")), "Factor in [0, 1] on the velocity of a group, for servos.")
-		.def("groupForce", &force, (arg("name")), "Force that a group puts on the blocks along its axes, in the last step [N].")
+		.def("groupForce",
+	             &force,
+	             (arg("name"), arg("axis") = ""),
+	             "Force that a group puts on the blocks along an axis, in the last step [N]; without an axis the sum over those it acts along, which for "
+	             "'xy' is Fx + Fy (with a warning).")
 		.def("groupVelocity", &velocity, (arg("name")), "Present velocity of a group [m/s].")
 		.def("groupTravelled", &travelled, (arg("name")), "Displacement of a group so far [m].")
 		.def("groupWork", &work, (arg("name")), "Work that a group has done on the blocks [J].")

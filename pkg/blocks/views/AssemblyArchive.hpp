@@ -12,7 +12,7 @@
 namespace blocks {
 
 /// Grows whenever the fields change. Files of another format are refused.
-constexpr int archiveFormat = 2;
+constexpr int archiveFormat = 3;
 
 } // namespace blocks
 
@@ -31,6 +31,8 @@ namespace serialization {
 	BLOCKS_ARCHIVE(Segment)
 	BLOCKS_ARCHIVE(Pair)
 	BLOCKS_ARCHIVE(JointParams)
+	BLOCKS_ARCHIVE(CapParams)
+	BLOCKS_ARCHIVE(SofteningParams)
 	BLOCKS_ARCHIVE(Joints)
 	BLOCKS_ARCHIVE(MotionGroup)
 	BLOCKS_ARCHIVE(RigidBlock)
@@ -39,6 +41,7 @@ namespace serialization {
 	BLOCKS_ARCHIVE(ContactMemory)
 	BLOCKS_ARCHIVE(ReleasedWork)
 	BLOCKS_ARCHIVE(Accounts)
+	BLOCKS_ARCHIVE(Softened)
 	BLOCKS_ARCHIVE(State)
 #undef BLOCKS_ARCHIVE
 

@@ -144,20 +144,30 @@ int BlockModel::bond(const vector<shared_ptr<JointMat>>& list, Real tolerance)
 	}
 	if (!list.empty())
 		for (size_t pair = 0; pair < a.joints.pairs.size(); ++pair) {
-			const auto&     block = a.joints.pairs[pair].block;
-			const JointMat& joint
-				= *jointBetween(list, materialLabels[a.mesh.blockMaterial[block[0]]], materialLabels[a.mesh.blockMaterial[block[1]]]);
-			setJoint(int(pair), joint.params(), joint.bonded);
+			const auto& block = a.joints.pairs[pair].block;
+			setJoint(
+				int(pair), *jointBetween(list, materialLabels[a.mesh.blockMaterial[block[0]]], materialLabels[a.mesh.blockMaterial[block[1]]]));
 		}
 	return int(a.joints.pairs.size());
 }
 
-void BlockModel::setJoint(int pair, const blocks::JointParams& params, bool bonded)
+void BlockModel::setJoint(int pair, const JointMat& joint)
 {
+	const blocks::JointParams         params    = joint.params();
+	const blocks::SofteningParams     softening = joint.softening();
 	const std::lock_guard<std::mutex> lock(complaintMutex);
 	const auto&                       p = assembly.joints.pairs[pair];
-	assembly.setJoints(p.first, p.last, params, bonded ? blocks::Joint::intact : blocks::Joint::unbonded);
+	assembly.setJoints(p.first, p.last, params, joint.bonded ? blocks::Joint::intact : blocks::Joint::unbonded, softening);
 	stiffnessChanged();
+}
+
+string BlockModel::withoutJoint(int contact) const
+{
+	const blocks::FreeContact& c = assembly.state.contacts[contact];
+	if (c.joint.kn > 0 || c.active.empty()) return "";
+	const string first = materialLabels[assembly.mesh.blockMaterial[c.block[0]]], second = materialLabels[assembly.mesh.blockMaterial[c.block[1]]];
+	return "there is no JointMat for the pair of materials \"" + std::min(first, second) + "\" and \"" + std::max(first, second) + "\", whose blocks "
+		+ std::to_string(c.block[0]) + " and " + std::to_string(c.block[1]) + " touch and would pass through each other";
 }
 
 void BlockModel::requireProperties()

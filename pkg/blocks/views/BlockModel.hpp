@@ -56,8 +56,11 @@ public:
 	/// Finds the joints and gives them their properties, unless the list is empty; the number of pairs.
 	int bond(const vector<shared_ptr<JointMat>>&, Real tolerance);
 
-	/// Properties of a pair's joints, and whether they are whole; several threads may do this for different pairs.
-	void setJoint(int pair, const blocks::JointParams&, bool bonded);
+	/// Properties of a pair's joints, and whether they are whole; several threads may do this for different pairs, with joints that do not soften.
+	void setJoint(int pair, const JointMat&);
+
+	/// What is missing where two blocks touch without a bond and no JointMat says how; empty if nothing is.
+	string withoutJoint(int contact) const;
 
 	/// Refuses joints without properties.
 	void requireProperties();

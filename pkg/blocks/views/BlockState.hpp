@@ -20,11 +20,15 @@ public:
 		createIndex();,
 		.add_property("pos", &BlockState::centroid, &BlockState::refuse, "Centroid of the block's mass as it is now [m].")
 		.add_property("vel", &BlockState::velocity, &BlockState::refuse, "Velocity of the block's mass, half a step ago [m/s].")
+		.add_property("angVel", &BlockState::rest, &BlockState::refuse, "None: the grid points move, not the body.")
+		.add_property("blockedDOFs", &BlockState::blocked, &BlockState::refuse, "All: the grid points move, not the body.")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(BlockState, State);
 
 	Vector3r velocity() const;
+	Vector3r rest() const { return Vector3r::Zero(); }
+	string   blocked() const { return "xyzXYZ"; }
 };
 REGISTER_SERIALIZABLE(BlockState);
 

@@ -33,6 +33,19 @@ blocks::JointParams JointMat::params() const
 	return bonded ? p : blocks::neverBonded(p);
 }
 
+blocks::SofteningParams JointMat::softening() const
+{
+	blocks::SofteningParams s;
+	s.energyI       = GfI;
+	s.energyII      = GfII;
+	s.lastingShare  = lastingShare;
+	s.dilationDecay = dilationDecay;
+	if (dilationPressure != -1) s.dilationPressure = dilationPressure;
+	s.cap = { capStrength, capFirst, capResidual, capPeakClosure, capEnergy, capShear, capLinear };
+	blocks::validate(params(), s);
+	return s;
+}
+
 vector<shared_ptr<JointMat>> checkedJoints(const py::object& list)
 {
 	vector<shared_ptr<JointMat>> checked;
@@ -44,7 +57,7 @@ vector<shared_ptr<JointMat>> checkedJoints(const py::object& list)
 			throw std::invalid_argument(
 				"JointMat.material1 and material2 must be labels of materials, got \"" + joint.material1 + "\" and \"" + joint.material2
 				+ "\"");
-		joint.params(); // refuses impossible values now
+		joint.softening(); // refuses impossible values now, those of params() too
 		for (long j = 0; j < i; ++j)
 			if (checked[j]->isOf(joint.material1, joint.material2))
 				throw std::invalid_argument(

@@ -22,6 +22,9 @@ void JointPhys::setJoint(const blocks::JointParams& params)
 	auto& a = model->assembly;
 	if (pair >= 0)
 		for (int i = a.joints.pairs[pair].first; i < a.joints.pairs[pair].last; ++i)
+			a.requireChangeable(i, params, a.joints.softeningOf(i)); // all before any is set
+	if (pair >= 0)
+		for (int i = a.joints.pairs[pair].first; i < a.joints.pairs[pair].last; ++i)
 			a.changeJoint(i, params);
 	if (contact >= 0) blocks::setContactJoint(a, contact, params);
 	model->stiffnessChanged();
@@ -44,29 +47,44 @@ namespace {
 		set<member>(phys, std::tan(angle));
 	}
 
-	/// Values at the contact points of the pair's joints; none for a pair that was never bonded.
-	template <class Column> py::list ofPoints(const JointPhys& phys, const Column& column)
-	{
-		py::list list;
-		if (phys.pair < 0) return list;
-		const auto& p = phys.model->assembly.joints.pairs[phys.pair];
-		for (int i = 2 * p.first; i < 2 * p.last; ++i)
-			list.append(column[i]);
-		return list;
-	}
-	const blocks::State& stateOf(const JointPhys& phys)
+	const blocks::BlockAssembly& assemblyOf(const JointPhys& phys)
 	{
 		if (!phys.model) throw std::runtime_error("JointPhys.model is empty: joints are made by BlockModel.bond or Ip2_BlockMat_BlockMat_JointPhys");
-		return phys.model->assembly.state;
+		return phys.model->assembly;
 	}
-	py::list sigma(const JointPhys& phys) { return ofPoints(phys, stateOf(phys).sigma); }
-	py::list tau(const JointPhys& phys) { return ofPoints(phys, stateOf(phys).tau); }
+
+	/// Of a pair that was never bonded: the ends of the edges that touch.
+	template <class Value> py::list ofEnds(const JointPhys& phys, const Value& value)
+	{
+		const auto& contacts = assemblyOf(phys).state.contacts;
+		py::list    list;
+		if (phys.contact >= 0 && phys.contact < int(contacts.size()))
+			for (int active : contacts[phys.contact].active)
+				for (int k : { 0, 1 })
+					list.append(value(contacts[phys.contact].edges[active], k));
+		return list;
+	}
+	py::list stresses(const JointPhys& phys, std::vector<Real> blocks::PointStresses::*which, std::array<Real, 2> blocks::EdgePair::*ofEnd)
+	{
+		if (phys.pair < 0) return ofEnds(phys, [&](const blocks::EdgePair& e, int k) { return (e.*ofEnd)[k]; });
+		const auto&                 pair = assemblyOf(phys).joints.pairs[phys.pair];
+		py::list                    list;
+		const blocks::PointStresses all = blocks::pointStresses(assemblyOf(phys), pair.first, pair.last);
+		for (Real stress : all.*which)
+			list.append(stress);
+		return list;
+	}
+	py::list sigma(const JointPhys& phys) { return stresses(phys, &blocks::PointStresses::sigma, &blocks::EdgePair::sigma); }
+	py::list tau(const JointPhys& phys) { return stresses(phys, &blocks::PointStresses::tau, &blocks::EdgePair::tau); }
 	py::list status(const JointPhys& phys)
 	{
-		vector<int> numbers;
-		for (blocks::Joint status : stateOf(phys).status)
-			numbers.push_back(int(status));
-		return ofPoints(phys, numbers);
+		if (phys.pair < 0) return ofEnds(phys, [](const blocks::EdgePair&, int) { return int(blocks::Joint::unbonded); });
+		const auto& a    = assemblyOf(phys);
+		const auto& pair = a.joints.pairs[phys.pair];
+		py::list    list;
+		for (int i = 2 * pair.first; i < 2 * pair.last; ++i)
+			list.append(int(a.state.status[i]));
+		return list;
 	}
 } // namespace
 
@@ -84,9 +102,13 @@ void JointPhysPython::visit(py::class_<JointPhys, shared_ptr<JointPhys>, py::bas
 		.add_property("frictionAngle", &getAngle<&P::tanPhi>, &setAngle<&P::tanPhi>, "Friction angle [rad].")
 		.add_property("frictionAngleResidual", &getAngle<&P::tanPhiResidual>, &setAngle<&P::tanPhiResidual>, "Friction angle after failure [rad].")
 		.add_property("dilationAngle", &getAngle<&P::tanDilation>, &setAngle<&P::tanDilation>, "Dilation angle [rad].")
-		.add_property("sigma", &sigma, "Normal stresses at the pair's contact points, tension positive [Pa].")
+		.add_property(
+			"sigma",
+			&sigma,
+			"Normal stresses at the pair's contact points, or at the ends of the edges that touch without a bond, tension positive [Pa].")
 		.add_property("tau", &tau, "Shear stresses at the pair's contact points [Pa].")
-		.add_property("status", &status, "Of the pair's contact points: 0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded.");
+		.add_property(
+			"status", &status, "Of the pair's contact points: 0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded, 4 softening.");
 }
 
 YADE_PLUGIN((JointPhys));

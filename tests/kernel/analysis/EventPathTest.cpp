@@ -74,7 +74,7 @@ TEST(EventPath, SnapBackByHand)
 	// holds. Up to v = T/kn both points carry T and lambda is T/kn + T/kn. One breaks; the other keeps to its strength while the force falls
 	// from 2 A T to A T, for which the upper joint shortens by T/(2 kn): that is the snap-back. Then the other breaks, at constant lambda.
 	const Real    T = 0.3e6, kn = 400e9;
-	BlockAssembly a     = column(3, 0.4, 0.3, 1, 1, stone(), brittle(T, 1e9, 0, 0));
+	BlockAssembly a = column(3, 0.4, 0.3, 1, 1, stone(), brittle(T, 1e9, 0, 0));
 	a.setJoints(a.joints.pairs[1].first, a.joints.pairs[1].last, brittle(1e9, 1e9, 0, 0));
 	ASSERT_EQ(a.joints.pairs[1].block, (std::array<int, 2> { 1, 2 }));
 	ASSERT_EQ(a.pointCount(), 4);
@@ -141,8 +141,8 @@ TEST(EventPath, FrictionByHandThereAndBack)
 	EXPECT_NEAR(there.energy.friction, 2 * area * residual * (until.displacement - strength / ks), near * lost);
 
 	a.state.groups[2].target = -1e-3; // back
-	until.displacement = 3 * residual / ks;
-	auto back          = follow(a, Driver { 2, -1 }, until);
+	until.displacement       = 3 * residual / ks;
+	auto back                = follow(a, Driver { 2, -1 }, until);
 	ASSERT_EQ(back.ended, "displacement");
 	EXPECT_NEAR(back.path.front().force, -2 * area * residual, 1e-5 * area * strength);
 	EXPECT_NEAR(back.reached.force, 2 * area * residual, 1e-5 * area * strength);
@@ -212,6 +212,22 @@ TEST(EventPath, RefusesWhatNothingHolds)
 		ADD_FAILURE() << "not refused";
 	} catch (const std::runtime_error& e) {
 		EXPECT_STREQ(e.what(), "blocks can move without resistance; hold them: block 3");
+	}
+}
+
+TEST(EventPath, RefusesAMechanism)
+{
+	// Two blocks glued on each other, held in one grid point and pushed in another: they turn about the pin as one.
+	BlockAssembly a  = column(2, 0.4, 0.3, 1, 1, stone(), brittle(1e6, 1e6, 0, 0));
+	auto          at = [](Real x, Real y) { return [=](const Vec2& p) { return (p - Vec2(x, y)).norm() < 1e-9; }; };
+	a.addGroup(driven("pin", both(dofs(a, 0, at(0, 0)), dofs(a, 1, at(0, 0))), 0));
+	a.addGroup(pushed("push", dofs(a, 1, at(0.4, 0.6)), 1e3));
+	const LinearModel m = linearise(a, growing(a, 1));
+	try {
+		EventPath path(m);
+		ADD_FAILURE() << "not refused";
+	} catch (const std::runtime_error& e) {
+		EXPECT_STREQ(e.what(), "blocks can move without resistance; hold them: block 0, 1");
 	}
 }
 

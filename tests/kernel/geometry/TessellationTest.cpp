@@ -657,12 +657,53 @@ TEST(Tessellation, cellsAroundHolesAreCut)
 		const Polygon region { rectangle(0, 0, 1, 0.9), holes };
 		auto          o   = sized(0.5, 0);
 		o.seeds           = { { 0.2, 0.5 } };
+		o.mergeFraction   = 0;
 		const Cells cells = tessellate(region, o);
 		expectTiling(region, cells, 0.5, std::to_string(holes.size()) + " holes in one cell");
 		EXPECT_EQ(cells.cells.size(), holes.size() + 1); // each hole adds two cuts and so, by Euler, one cell
+		o.mergeFraction = 0.05;
+		expectTiling(region, tessellate(region, o), 0.5, std::to_string(holes.size()) + " holes in one cell, necks divided");
 		o.seeds.push_back({ 0.9, 0.2 });
 		o.seeds.push_back({ 0.8, 0.85 });
 		expectTiling(region, tessellate(region, o), 0.5, "holes, with neighbours");
+	}
+}
+
+// Two holes with edges on one line (case 4599 of seed 402 of the fuzz): flattening left a cell whose arm of no width lay along that line, and blocks
+// that overlap by rounding. No vertex of a cell lies on another of its edges.
+TEST(Tessellation, flatteningLeavesNoArms)
+{
+	Polygon region { { { -11.746167013432753, 4.8068172746213902 },
+		           { -12.871862836774095, 5.4384476387366787 },
+		           { -14.27139640417289, 2.9441896344472043 },
+		           { -13.145700580831548, 2.3125592703319162 } },
+		         {} };
+	region.holes      = { { { -13.897775289932088, 3.0101349983637102 },
+		                { -13.905752444588458, 3.0146109971155326 },
+		                { -13.901276445836636, 3.0225881517719024 },
+		                { -13.893299291180266, 3.0181121530200805 } },
+		              { { -13.904122507396524, 3.0189407594518749 },
+		                { -13.911491599868919, 3.0230755731955394 },
+		                { -13.909253600493006, 3.0270641505237252 },
+		                { -13.901884508020613, 3.0229293367800603 } },
+		              { { -13.740509353834359, 3.3210071427920465 },
+		                { -13.738527263836456, 3.3212550494655186 },
+		                { -13.736570854967653, 3.3181674833479144 },
+		                { -13.738229418033439, 3.3160893649411167 },
+		                { -13.741810304716363, 3.3163552898571913 },
+		                { -13.743150190685968, 3.3178745256171362 } } };
+	auto o            = sized(0.21002905215131454, 3, 695587);
+	o.mergeFraction   = 0.45;
+	const Cells cells = tessellate(region, o);
+	for (size_t i = 0; i < cells.cells.size(); ++i) {
+		const Ring   ring = ringOf(cells, i);
+		const size_t n    = ring.size();
+		for (size_t k = 0; k < n; ++k)
+			for (size_t m = 1; m + 1 < n; ++m) { // edges that do not begin or end at k
+				const Vec2 a = ring[(k + m) % n], b = ring[(k + m + 1) % n];
+				const Real along = std::clamp((ring[k] - a).dot(b - a) / (b - a).squaredNorm(), Real(0), Real(1));
+				EXPECT_GT((ring[k] - a - along * (b - a)).norm(), 1e-9 * o.size) << "cell " << i;
+			}
 	}
 }
 

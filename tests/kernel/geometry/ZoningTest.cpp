@@ -447,6 +447,21 @@ TEST(CellZones, takeAnotherZoningWhereAFanDoesNotSuit)
 	EXPECT_LE(quality(l.zones).worstAspect, quality(fanZones(thinL)).worstAspect);
 }
 
+// Seeds of which cells passed a corner of the hole by a narrow neck, ran round it but for a tiny edge of a neighbour, or had a vertex in the middle of
+// a neighbour's edge. An edge may be as short as a twentieth of a cell's size; a zone from it to what lies two sizes away has an aspect of 40.
+TEST(CellZones, areNoSliversRoundAHole)
+{
+	const Polygon region { rectangle(0, 0, 1, 1), { reversed(rectangle(0.45, 0.45, 0.55, 0.55)) } };
+	for (int seed : { 14, 34, 476, 498, 526, 698, 797, 844, 1313, 1949 }) {
+		TessellationOptions options;
+		options.size      = 0.3;
+		options.seed      = seed;
+		const Cells cells = tessellate(region, options);
+		for (size_t i = 0; i < cells.cells.size(); ++i)
+			EXPECT_LT(quality(cellZones(ringOf(cells, i), Zoning::fan).zones).worstAspect, 2 / options.mergeFraction) << "seed " << seed;
+	}
+}
+
 // Mutations tried on Zoning.cpp, each noticed by at least one test: a factor in the fan's centroid; the kernel without its
 // border; the fan's point not checked; split points moved off; smoothing without its check; no refinement; refinement
 // outside of the block; encroachment ignored; grading ignored; holes filled; `kept` ignored; a rounding error giving one

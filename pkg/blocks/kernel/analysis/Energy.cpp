@@ -1,8 +1,10 @@
 // yade-blocks, GPL-2.0-or-later
+#include <algorithm>
 #include <blocks/kernel/analysis/Energy.hpp>
 #include <blocks/kernel/step/Contacts.hpp>
 #include <blocks/kernel/step/Joints.hpp>
 #include <blocks/kernel/step/ZoneForces.hpp>
+#include <limits>
 
 namespace blocks {
 
@@ -33,8 +35,12 @@ Real jointEnergy(const BlockAssembly& a)
 	for (int i = 0; i < a.joints.count(); ++i) {
 		if (a.state.released[i] || a.joints.kind[i] == 0) continue;
 		const JointParams& joint = a.joints.of(i);
-		for (int p : { 2 * i, 2 * i + 1 })
-			sum += a.joints.segments[i].area * storedEnergy(joint, a.state.sigma[p], a.state.tau[p]);
+		for (int p : { 2 * i, 2 * i + 1 }) {
+			const Real sigma = a.state.sigma[p], tau = a.state.tau[p];
+			const Real held = a.joints.softens(i) ? storedEnergy(joint, a.joints.softeningOf(i), a.state.softened.of(p), sigma, tau)
+							      : storedEnergy(joint, sigma, tau);
+			sum += a.joints.segments[i].area * held;
+		}
 	}
 	return sum + (a.contacts.order.empty() ? 0 : contactEnergy(a));
 }
@@ -87,29 +93,67 @@ Real rigidWork(const BlockAssembly& a)
 	return sum;
 }
 
+namespace {
+
+	/// Sums of |Fx| + |Fy| over free degrees of freedom and over contacts [N].
+	struct ForceSums {
+		Real unbalanced = 0, contact = 0;
+	};
+
+	ForceSums forceSums(const BlockAssembly& a)
+	{
+		ForceSums sum;
+		for (int n = 0; n < a.nodeCount(); ++n)
+			for (int axis : { 0, 1 })
+				if (a.supports.mobility[n][axis] > 0) sum.unbalanced += std::abs(a.forces.nodal[n][axis]);
+		for (const RigidBlock& r : a.state.rigid)
+			sum.unbalanced += r.unbalanced.head<2>().lpNorm<1>();
+		for (int i = 0; i < a.joints.count(); ++i) {
+			if (a.state.released[i]) continue;
+			const JointFrame f = frameOf(a, i);
+			for (int p : { 2 * i, 2 * i + 1 }) {
+				const Real sigma = a.state.sigma[p], tau = a.state.tau[p];
+				sum.contact += a.joints.segments[i].area * (std::abs(sigma * f.nx - tau * f.ny) + std::abs(sigma * f.ny + tau * f.nx));
+			}
+		}
+		for (int i : a.contacts.order)
+			for (int e : a.state.contacts[i].active) {
+				const FourPoints& force = a.state.contacts[i].edges[e].force;
+				sum.contact += (force[0] + force[1]).lpNorm<1>();
+			}
+		return sum;
+	}
+
+} // namespace
+
 Real unbalancedRatio(const BlockAssembly& a, Real floor)
 {
-	Real unbalanced = 0, contact = 0;
-	for (int n = 0; n < a.nodeCount(); ++n)
-		for (int axis : { 0, 1 })
-			if (a.supports.mobility[n][axis] > 0) unbalanced += std::abs(a.forces.nodal[n][axis]);
+	const ForceSums sum   = forceSums(a);
+	const Real      scale = 2 * std::max(sum.contact, floor);
+	return scale > 0 ? sum.unbalanced / scale : 0;
+}
+
+Real unrest(const BlockAssembly& a, Real time, Real floor)
+{
+	constexpr Real  never      = std::numeric_limits<Real>::infinity();
+	const ForceSums sum        = forceSums(a);
+	Real            unbalanced = sum.unbalanced, loads = 0, groups = 0;
+	for (const Vec2& load : a.supports.load)
+		loads += load.lpNorm<1>();
 	for (const RigidBlock& r : a.state.rigid)
-		unbalanced += r.unbalanced.head<2>().lpNorm<1>();
-	for (int i = 0; i < a.joints.count(); ++i) {
-		if (a.state.released[i]) continue;
-		const JointFrame f = frameOf(a, i);
-		for (int p : { 2 * i, 2 * i + 1 }) {
-			const Real sigma = a.state.sigma[p], tau = a.state.tau[p];
-			contact += a.joints.segments[i].area * (std::abs(sigma * f.nx - tau * f.ny) + std::abs(sigma * f.ny + tau * f.nx));
-		}
+		loads += r.load.lpNorm<1>();
+	for (const MotionGroup& g : a.state.groups) {
+		if (g.target != 0 && g.ramp(time) < 1) return never;
+		groups += std::abs(g.force);
+		if (g.drive == MotionGroup::Drive::velocity) continue;
+		Real force = g.target * g.ramp(time);
+		for (int dof : g.dofs)
+			force += a.forces.nodal[dof / 2][dof % 2];
+		unbalanced += std::abs(force);
 	}
-	for (int i : a.contacts.order)
-		for (int e : a.state.contacts[i].active) {
-			const FourPoints& force = a.state.contacts[i].edges[e].force;
-			contact += (force[0] + force[1]).lpNorm<1>();
-		}
-	const Real scale = 2 * std::max(contact, floor);
-	return scale > 0 ? unbalanced / scale : 0;
+	const Real scale   = std::max({ 2 * sum.contact, loads, groups, 2 * floor });
+	const Real kinetic = kineticEnergy(a), stored = zoneEnergy(a) + jointEnergy(a);
+	return std::max(unbalanced > 0 ? unbalanced / scale : 0, kinetic > 0 ? kinetic / stored : 0);
 }
 
 } // namespace blocks

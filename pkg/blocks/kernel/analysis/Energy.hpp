@@ -18,4 +18,9 @@ Real rigidWork(const BlockAssembly&);               ///< of what moves rigid blo
 /// Sum of |F| over free degrees of freedom (moments on rigid blocks left out) by twice the sum of |F| over contact points, the latter at least `floor` [N].
 Real unbalancedRatio(const BlockAssembly&, Real floor = 0);
 
+/// How far the scene is from rest, by what every scene has: the unbalanced forces, of pushed groups too, by the largest of the sums of loads, of forces of
+/// groups and twice those of contacts; or the kinetic energy by that of zones and joints, if this is more. Infinite while a group is within its ramp. 0 where
+/// nothing moves and no force acts. floor: least sum of forces that counts [N].
+Real unrest(const BlockAssembly&, Real time, Real floor = 0);
+
 } // namespace blocks

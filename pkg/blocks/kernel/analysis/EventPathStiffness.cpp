@@ -134,10 +134,10 @@ void EventPath::factorise()
 
 	constexpr Real singular = 1e-12; // of a pivot by its diagonal entry: rounding leaves 1e-15 times the length of a row
 	if (m.unknowns > 0 && !(factor->leastPivot() > singular)) {
-		Eigen::SparseMatrix<Real> held = all; // with soft springs everywhere, what nothing else holds moves most
+		Eigen::SparseMatrix<Real> softened = all; // with soft springs everywhere, what nothing else holds moves most
 		for (int i = 0; i < m.unknowns; ++i)
-			held.coeffRef(i, i) += 1e-9 * std::max(diagonal[i], Real(1e-9) * diagonal.maxCoeff());
-		const SparseFactor soft(held);
+			softened.coeffRef(i, i) += 1e-9 * std::max(diagonal[i], Real(1e-9) * diagonal.maxCoeff());
+		const SparseFactor soft(softened);
 		Vector             motion = Vector::Zero(m.unknowns), none = motion;
 		motion[factor->rowOfLeastPivot()] = 1;
 		std::vector<Real> b(2 * m.unknowns, 0);

@@ -166,6 +166,7 @@ follow(BlockAssembly&                               a,
 	require(until.drop >= 0 && until.drop < 1, "follow: drop must lie in [0, 1)", until.drop);
 	require(until.displacement > 0, "follow: displacement must be positive [m]", until.displacement);
 	require(until.cracks >= 1, "follow: cracks must be at least 1", until.cracks);
+	if (a.joints.anySoftens()) throw std::runtime_error("follow: joints soften; events are known of brittle joints only");
 	const Growth      growth = unitOf(a, driver);
 	const bool        driven = driver.group < 0 || a.state.groups[driver.group].drive == MotionGroup::Drive::velocity;
 	const LinearModel m      = linearise(a, growth, driven ? -1 : driver.group);

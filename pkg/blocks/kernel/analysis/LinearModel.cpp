@@ -16,7 +16,8 @@ namespace {
 			const std::string who   = "the joint between blocks " + std::to_string(block[0]) + " and " + std::to_string(block[1]);
 			if (a.joints.kind[i] == 0) throw std::runtime_error(who + " has no properties yet; give them to bond(), or run one step first");
 			for (int p : { 2 * i, 2 * i + 1 })
-				if (a.state.status[p] == Joint::softening) throw std::runtime_error(who + " softens; events are known of brittle joints only");
+				if (a.state.status[p] == Joint::softening || a.joints.softeningOf(i).cap.strength > 0)
+					throw std::runtime_error(who + " softens, or has a cap; events are known of brittle joints only");
 		}
 		for (const FreeContact& c : a.state.contacts)
 			if (!c.active.empty())

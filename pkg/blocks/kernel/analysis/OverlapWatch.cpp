@@ -20,6 +20,30 @@ namespace {
 		return least;
 	}
 
+	/// Whether a point lies within a block whose grid points are `where`(n), by the number of edges to its right.
+	template <class Where> bool within(const BlockAssembly& a, int block, const Vec2& p, const Where& where)
+	{
+		bool odd = false;
+		for (int e = a.mesh.firstEdge[block]; e < a.mesh.firstEdge[block + 1]; ++e) {
+			const Vec2 from = where(a.mesh.edgeNodes[e][0]), to = where(a.mesh.edgeNodes[e][1]);
+			if ((from.y() > p.y()) != (to.y() > p.y()) && p.x() < from.x() + (p.y() - from.y()) / (to.y() - from.y()) * (to.x() - from.x()))
+				odd = !odd;
+		}
+		return odd;
+	}
+
+	/// Means of three vertices of an outline that lie within it; of very many vertices some are left out.
+	template <class Consider> void considerOutline(const BlockAssembly& a, int block, const Consider& consider)
+	{
+		constexpr int few  = 24;
+		const int     last = a.mesh.firstNode[block + 1], stride = 1 + (last - a.mesh.firstNode[block] - 1) / few;
+		for (int i = a.mesh.firstNode[block]; i < last; i += stride)
+			for (int j = i + stride; j < last; j += stride)
+				for (int k = j + stride; k < last; k += stride)
+					if (within(a, block, meanOf(a.mesh.reference, { i, j, k }), [&](int n) { return a.mesh.reference[n]; }))
+						consider({ i, j, k });
+	}
+
 } // namespace
 
 void OverlapWatch::measure(const BlockAssembly& a)
@@ -45,21 +69,25 @@ void OverlapWatch::measure(const BlockAssembly& a)
 				if (next[from] < 0) consider({ from, from, from });
 			}
 		}
+		if (a.isRigid(block)) considerOutline(a, block, consider);
 	}
 }
 
-/// Whether a block's innermost point lies within another block, by the number of edges to its right.
+/// Whether a block's innermost point lies within another block.
 bool OverlapWatch::entered(const BlockAssembly& a, int block, int other) const
 {
 	if (innermost[block][0] < 0) return false;
-	const auto& n   = innermost[block];
-	const Vec2  p   = (a.position(n[0]) + a.position(n[1]) + a.position(n[2])) / 3;
-	bool        odd = false;
-	for (int e = a.mesh.firstEdge[other]; e < a.mesh.firstEdge[other + 1]; ++e) {
-		const Vec2 from = a.position(a.mesh.edgeNodes[e][0]), to = a.position(a.mesh.edgeNodes[e][1]);
-		if ((from.y() > p.y()) != (to.y() > p.y()) && p.x() < from.x() + (p.y() - from.y()) / (to.y() - from.y()) * (to.x() - from.x())) odd = !odd;
+	const auto& n = innermost[block];
+	return within(a, other, (a.position(n[0]) + a.position(n[1]) + a.position(n[2])) / 3, [&](int node) { return a.position(node); });
+}
+
+int firstInverted(const BlockAssembly& a)
+{
+	for (int z = 0; z < a.zoneCount(); ++z) {
+		const auto& node = a.mesh.zoneNodes[z];
+		if (!(cross(a.between(node[0], node[1]), a.between(node[0], node[2])) > 0)) return a.blockOfNode(node[0]);
 	}
-	return odd;
+	return -1;
 }
 
 void OverlapWatch::look(const BlockAssembly& a)
@@ -67,7 +95,6 @@ void OverlapWatch::look(const BlockAssembly& a)
 	if (int(zoneHeight.size()) != a.nodeCount()) measure(a);
 	joint = contact = {};
 	through         = { -1, -1 };
-	inverted        = -1;
 	entries         = 0;
 	auto enter      = [&](const std::array<int, 2>& block) {
                 for (int side : { 0, 1 })
@@ -94,16 +121,14 @@ void OverlapWatch::look(const BlockAssembly& a)
 		Overlap            worst;
 		for (int index : c.active) {
 			const EdgePair& e = c.edges[index];
-			worst.raise(c.block, -std::min(e.sigma[0], e.sigma[1]) / c.joint.kn, std::min(zoneHeight[e.node[0]], zoneHeight[e.node[2]]));
+			const Real height = std::min(zoneHeight[e.node[0]], zoneHeight[e.node[2]]); // of rigid blocks the depth at which the contact is lost
+			worst.raise(c.block, -std::min(e.sigma[0], e.sigma[1]) / c.joint.kn, std::isfinite(height) ? height : e.shape.depthLimit);
 		}
 		if (c.active.empty() || worst.share() > thin) enter(c.block); // edges that are too deep do not touch any more
 		if (worst.share() > contact.share()) contact = worst;
 	}
 
-	for (int z = 0; z < a.zoneCount() && inverted < 0; ++z) {
-		const auto& node = a.mesh.zoneNodes[z];
-		if (!(cross(a.between(node[0], node[1]), a.between(node[0], node[2])) > 0)) inverted = a.blockOfNode(node[0]);
-	}
+	inverted = firstInverted(a);
 }
 
 } // namespace blocks

@@ -8,11 +8,14 @@ namespace blocks {
 
 struct BlockAssembly;
 
+/// The block of the first zone that has turned inside out, or -1.
+int firstInverted(const BlockAssembly&);
+
 /// Two edges, of two blocks, that overlap.
 struct Overlap {
 	std::array<int, 2> block { -1, -1 };
 	Real               depth  = 0; ///< [m]
-	Real               height = 1; ///< of the lower of the two zones behind the edges [m]
+	Real               height = 1; ///< of the lower of the two zones behind the edges; of rigid blocks the depth at which a contact is lost [m]
 
 	Real share() const { return depth / height; }
 	void raise(const std::array<int, 2>& blocks, Real d, Real h)

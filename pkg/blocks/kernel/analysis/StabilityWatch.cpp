@@ -21,6 +21,9 @@ namespace {
 		return fastest;
 	}
 
+	const char* const notANumber = "the motion of a grid point is not a number";
+	const char* const insideOut  = "a zone has turned inside out";
+
 	/// "12 %"
 	std::string percent(Real share) { return std::to_string(std::lround(100 * share)) + " %"; }
 
@@ -54,13 +57,13 @@ namespace {
 StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, Real time, Real dt)
 {
 	const int bad = a.firstBadNode();
-	if (bad >= 0) return { false, a.blockOfNode(bad), "the motion of a grid point is not a number" };
+	if (bad >= 0) return { false, a.blockOfNode(bad), notANumber };
 
 	overlaps.look(a);
 	const char* const cure    = "; joints must be stiffer or loads smaller";
 	const std::string entered = overlaps.entries == 0 ? "" : "has gone into block " + std::to_string(overlaps.through[1]) + " by more than half";
 	if (overlaps.entries > lostShare * a.blockCount()) return { false, overlaps.through[0], "it " + entered + cure };
-	if (overlaps.inverted >= 0) return { false, overlaps.inverted, "a zone has turned inside out" };
+	if (overlaps.inverted >= 0) return { false, overlaps.inverted, insideOut };
 	if (overlaps.mean > OverlapWatch::thin) {
 		return { false,
 			 overlaps.joint.block[0],
@@ -83,6 +86,7 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 		begun    = true;
 		compared = step;
 	}
+	if (loadsChanged(a)) baseline = energy - groupWork(a) - rigidWork(a) - loads - lastExcess; // no work since the last look is known to be theirs
 	const Real excess  = energy - groupWork(a) - rigidWork(a) - loads - baseline;
 	const Real scale   = std::abs(baseline) + turnover + std::abs(loads) + roundingEnergy;
 	const bool compare = step - compared >= leastInterval;
@@ -97,9 +101,15 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 	}
 	if (compare) lastExcess = excess, compared = step;
 	Verdict good;
+	if (!excessTold && compare && excess > tolerance * scale) {
+		excessTold   = true;
+		good.warning = shown(excess, 3) + " J of energy came from nowhere, beside " + shown(scale, 3)
+			+ " J that were put in or were there: blocks that overlapped when they first touched, or a script that wrote velocities or positions";
+	}
 	if (!warned && overlaps.thickest().share() > OverlapWatch::told) {
-		warned       = true;
-		good.warning = described(overlaps.thickest()) + "; up to 10 % joints may count as thin, and if their mean is more the run is stopped" + cure;
+		warned = true;
+		good.warning += (good.warning.empty() ? "" : "; ") + described(overlaps.thickest())
+			+ "; up to 10 % joints may count as thin, and if their mean is more the run is stopped" + cure;
 	}
 	if (!lossTold && overlaps.entries > 0) {
 		lossTold = true;
@@ -107,6 +117,26 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 			+ ("block " + std::to_string(overlaps.through[0]) + " " + entered + ": fragments get lost there" + cure);
 	}
 	return good;
+}
+
+/// Whether loads are others than at the last look; notes them.
+bool StabilityWatch::loadsChanged(const BlockAssembly& a)
+{
+	std::vector<Vec2> rigid;
+	for (const RigidBlock& r : a.state.rigid)
+		rigid.push_back(r.load);
+	const bool changed = goodAt >= 0 && (a.supports.load != loads || rigid != rigidLoads);
+	loads = a.supports.load, rigidLoads = std::move(rigid);
+	return changed;
+}
+
+StabilityWatch::Verdict StabilityWatch::lookAtEnd(const BlockAssembly& a)
+{
+	const int bad = a.firstBadNode();
+	if (bad >= 0) return { false, a.blockOfNode(bad), notANumber, {} };
+	const int inverted = firstInverted(a);
+	if (inverted >= 0) return { false, inverted, insideOut, {} };
+	return {};
 }
 
 long StabilityWatch::restore(BlockAssembly& a) const

@@ -31,11 +31,14 @@ public:
 		bool        stable = true;
 		int         block  = -1; ///< the one that moves fastest, the first that is not a number, one of two that overlap
 		std::string reason;
-		std::string warning {}; ///< to be shown; empty if there is none, and after the first one
+		std::string warning {}; ///< to be shown; empty if there is none, and after the first one of its kind
 	};
 
 	/// To be called every so many steps, between forces and motion.
 	Verdict look(const BlockAssembly&, long step, Real time, Real dt);
+
+	/// Behind the last motion of a run, so that nobody reads what no look has passed: whether all are numbers and no zone is inside out.
+	static Verdict lookAtEnd(const BlockAssembly&);
 
 	/// Puts the last good state back; the step it belongs to, or -1 if there was none.
 	long restore(BlockAssembly&) const;
@@ -44,17 +47,21 @@ public:
 	bool started() const { return begun; }
 
 private:
-	long         goodAt = -1;
-	Real         when   = 0; ///< of the last good state [s]
-	State        lastGood;
-	OverlapWatch overlaps;
-	bool         begun          = false;
-	bool         warned         = false;
-	bool         lossTold       = false;
-	Real         baseline       = 0; ///< energy at the first look less the work done by then [J]
-	Real         lastExcess     = 0;
-	long         compared       = 0; ///< step of lastExcess
-	Real         roundingEnergy = 0; ///< [J]
+	bool loadsChanged(const BlockAssembly&);
+
+	long              goodAt = -1;
+	Real              when   = 0; ///< of the last good state [s]
+	State             lastGood;
+	OverlapWatch      overlaps;
+	bool              begun      = false;
+	bool              warned     = false;
+	bool              lossTold   = false;
+	bool              excessTold = false;
+	Real              baseline   = 0; ///< energy at the first look less the work done by then [J]
+	Real              lastExcess = 0;
+	long              compared   = 0;     ///< step of lastExcess
+	std::vector<Vec2> loads, rigidLoads;  ///< at the last look [N]
+	Real              roundingEnergy = 0; ///< [J]
 };
 
 } // namespace blocks

@@ -50,7 +50,7 @@ namespace {
 	/// Adds points inside too large zones, the largest first, as long as they lie in the block and leave the outline alone.
 	class Refinement {
 	public:
-		Refinement(Mesh& m, Zones& z, const Sizing& s)
+		Refinement(Triangulation& m, Zones& z, const Sizing& s)
 			: mesh(m)
 			, zones(z)
 			, sizing(s)
@@ -69,16 +69,16 @@ namespace {
 		}
 
 	private:
-		Mesh&         mesh;
-		Zones&        zones;
-		const Sizing& sizing;
+		Triangulation& mesh;
+		Zones&         zones;
+		const Sizing&  sizing;
 
 		using Nodes = std::array<int, 3>;
 		struct Large {
-			Real              excess; ///< circumradius by wanted circumradius
-			Nodes             nodes;
-			Mesh::Face_handle face;
-			bool              operator<(const Large& other) const { return std::tie(excess, nodes) < std::tie(other.excess, other.nodes); }
+			Real                       excess; ///< circumradius by wanted circumradius
+			Nodes                      nodes;
+			Triangulation::Face_handle face;
+			bool                       operator<(const Large& other) const { return std::tie(excess, nodes) < std::tie(other.excess, other.nodes); }
 		};
 		std::priority_queue<Large> queue;
 
@@ -88,7 +88,7 @@ namespace {
 			return nodes;
 		}
 
-		void consider(Mesh::Face_handle f)
+		void consider(Triangulation::Face_handle f)
 		{
 			if (mesh.is_infinite(f) || !f->info()) return;
 			const auto centre = mesh.circumcenter(f);
@@ -99,7 +99,7 @@ namespace {
 		}
 
 		/// The circumcentre, or, where a long edge of the outline is in its way, the centroid of a zone that is too large.
-		void divide(Mesh::Face_handle f)
+		void divide(Triangulation::Face_handle f)
 		{
 			const auto corner   = [&](int i) { return fromK(f->vertex(i)->point()); };
 			const Vec2 centroid = (corner(0) + corner(1) + corner(2)) / 3;
@@ -108,13 +108,15 @@ namespace {
 			if (!insert(mesh.circumcenter(f), f) && tooLarge) insert(toK(centroid), f);
 		}
 
-		bool insert(const K::Point_2& p, Mesh::Face_handle near)
+		bool insert(const K::Point_2& p, Triangulation::Face_handle near)
 		{
-			Mesh::Locate_type       type;
-			int                     i;
-			const Mesh::Face_handle at = mesh.locate(p, type, i, near);
-			if (type == Mesh::VERTEX || type == Mesh::OUTSIDE_CONVEX_HULL || type == Mesh::OUTSIDE_AFFINE_HULL || !at->info()) return false;
-			if (type == Mesh::EDGE && at->is_constrained(i)) return false;
+			Triangulation::Locate_type       type;
+			int                              i;
+			const Triangulation::Face_handle at = mesh.locate(p, type, i, near);
+			if (type == Triangulation::VERTEX || type == Triangulation::OUTSIDE_CONVEX_HULL || type == Triangulation::OUTSIDE_AFFINE_HULL
+			    || !at->info())
+				return false;
+			if (type == Triangulation::EDGE && at->is_constrained(i)) return false;
 			if (sizing.encroaches(fromK(p))) return false;
 
 			const auto node = mesh.insert(p, type, at, i);
@@ -172,9 +174,9 @@ Zones delaunayZones(const Polygon& polygon, Real zoneSize, Outline outline)
 {
 	requireSimple(polygon, "delaunayZones");
 	requireZoneSize("delaunayZones", zoneSize, polygon.outer);
-	Zones        zones         = outlineOf(outline == Outline::split ? divided(polygon, zoneSize) : polygon);
-	const size_t firstInterior = zones.points.size();
-	Mesh         mesh;
+	Zones         zones         = outlineOf(outline == Outline::split ? divided(polygon, zoneSize) : polygon);
+	const size_t  firstInterior = zones.points.size();
+	Triangulation mesh;
 	triangulateOutline(mesh, zones);
 	const Sizing sizing(zones, zoneSize);
 	Refinement(mesh, zones, sizing).run();

@@ -4,7 +4,7 @@
 
 namespace blocks {
 
-/// Cuts pieces that surround whole holes in two, through the hole; `size` is that of a cell [m].
-void cutAroundHoles(Diagram&, const Walls& region, Real size);
+/// Cuts pieces in two that surround holes, whole or but for less than a `shortest` edge; `size` is that of a cell [m].
+void cutAroundHoles(Diagram&, const Walls& region, Real shortest, Real size);
 
 } // namespace blocks

@@ -42,12 +42,12 @@ namespace {
 			for (size_t c = 0; c < cells.size(); ++c)
 				queueEdges(int(c));
 			mergeEdges();
-			for (size_t c = 0; c < cells.size(); ++c) // cells added by divide() have their turn too
-				while (trim(int(c)) || shorten(int(c)) || divide(int(c)) || divideAtEdge(int(c))) { }
-			mergeEdges();
+			divideNecks();
 			for (size_t c = 0; c < cells.size(); ++c)
 				if (!cells[c].empty() && thin(int(c))) flatten(int(c));
 			mergeEdges();
+			// Flattening may leave arms along walls beyond a corner that is not convex.
+			if (std::count(reflex.begin(), reflex.end(), 1) > 0) divideNecks();
 			return result();
 		}
 
@@ -62,6 +62,13 @@ namespace {
 		using Edge = std::tuple<Real, int, int>; // length, lower node, higher node: a total order
 		std::priority_queue<Edge, std::vector<Edge>, std::greater<>> queue;
 		std::map<int, IntRing>                                       changed; ///< the operation under test: new rings by cell
+
+		void divideNecks()
+		{
+			for (size_t c = 0; c < cells.size(); ++c) // cells added by divide() have their turn too
+				while (trim(int(c)) || shorten(int(c)) || divide(int(c)) || divideAtEdge(int(c))) { }
+			mergeEdges();
+		}
 
 		Real length(int a, int b) const { return (d.position[a] - d.position[b]).norm(); }
 
@@ -257,8 +264,14 @@ namespace {
 						break;
 					}
 					if (changed.size() != 2) continue;
+					const Vec2 old = d.position[far];
+					if (width > tolerance) {
+						const int beyond = changed.begin()->first == cell ? changed.rbegin()->first : changed.begin()->first;
+						giveWay(far, corner, nextTo(changed[beyond], far, !forward), ring[forward ? (k + 3) % n : (k + n - 3) % n]);
+					}
 					dissolve(tip);
 					if (acceptChanges(width <= tolerance)) return true;
+					d.position[far] = old;
 				}
 			return false;
 		}
@@ -333,7 +346,7 @@ namespace {
 			return false;
 		}
 
-		/// The same where the other side of a neck of no width is an edge: the corner becomes a vertex of the neighbour beyond it.
+		/// The same where the other side of the neck is an edge: the corner becomes a vertex of the neighbour beyond it.
 		bool divideAtEdge(int cell)
 		{
 			const IntRing ring = cells[cell];
@@ -345,7 +358,7 @@ namespace {
 					const Vec2 along = d.position[b] - d.position[a], p = d.position[corner] - d.position[a];
 					if (p.dot(along) <= 0 || p.dot(along) >= along.squaredNorm()) continue;
 					const Real width = std::abs(cross(along, p)) / along.norm();
-					if (width > tolerance) continue; // wider ones are cells like others
+					if (width >= shortest) continue;
 					for (int beyond : around[a]) {
 						if (beyond == cell || !adjacent(cells[beyond], a, b)
 						    || std::count(cells[beyond].begin(), cells[beyond].end(), corner))
@@ -359,13 +372,42 @@ namespace {
 						IntRing& rest = changed[int(cells.size())];
 						rest          = IntRing(turned.begin() + m, turned.end());
 						rest.front()  = corner;
+						// The neighbour must not be dented at the edge's ends: these give way.
+						const Vec2 oldA = d.position[a], oldB = d.position[b];
+						if (width > tolerance) {
+							giveWay(a, corner, nextTo(other, a, true), turned[m - 1]);
+							giveWay(b, corner, nextTo(other, b, false), turned[(m + 2) % n]);
+						}
 						cells.emplace_back();
 						if (acceptChanges(width <= tolerance)) return true;
 						cells.pop_back();
+						d.position[a] = oldA, d.position[b] = oldB;
 						break;
 					}
 				}
 			return false;
+		}
+
+		static int nextTo(const IntRing& ring, int node, bool after)
+		{
+			const size_t n = ring.size(), at = std::find(ring.begin(), ring.end(), node) - ring.begin();
+			return ring[(at + (after ? 1 : n - 1)) % n];
+		}
+
+		/// Moves a node from behind the line between two others onto it, along its edge with a fourth, if that meets the line.
+		void giveWay(int node, int from, int to, int along)
+		{
+			if (d.place[node].kind != Place::inside) return;
+			const Vec2 line = d.position[to] - d.position[from], p = d.position[node] - d.position[from];
+			const Vec2 way    = d.position[along] - d.position[node];
+			const Real behind = cross(line, p), pace = cross(line, way);
+			if (pace == 0 || !(-behind / pace > 0 && -behind / pace < 1)) return;
+			const Vec2 there = d.position[node] - behind / pace * way;
+			const Real share = (there - d.position[from]).dot(line) / line.squaredNorm();
+			if (!(share > 0 && share < 1)) return;
+			d.position[node] = there;
+			for (int c : around[node])
+				changed.try_emplace(c, cells[c]);
 		}
 
 		/// Moves the cell's other nodes onto its base; the cell vanishes and its neighbour beyond the base (if any) takes the nodes over. Nodes of the

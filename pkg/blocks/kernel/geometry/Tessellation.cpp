@@ -17,7 +17,8 @@
 namespace blocks {
 namespace {
 
-	/// A region may be no thinner than this fraction of the cell size: cells there would be as thin as what counts as coincident.
+	/// A region, and what lies between its edges, may be no thinner than this fraction of the cell size: the tolerance with which blocks are bonded.
+	/// Across a slit that is narrower, edges would be taken for a joint.
 	constexpr Real thinnest = 1e-6;
 
 	/// Each seed goes to the centroid of the largest piece of its cell; it stays where it is if that lies outside the piece.
@@ -119,8 +120,9 @@ Cells tessellate(const Polygon& region, const TessellationOptions& options)
 			seeds = centroids(voronoi.diagram, seeds);
 			continue;
 		}
-		cutAroundHoles(voronoi.diagram, walls, s);
-		const Cells cells = mergeShortEdges(voronoi.diagram, walls, std::max(options.mergeFraction, coincident) * s, s);
+		const Real shortest = std::max(options.mergeFraction, coincident) * s;
+		cutAroundHoles(voronoi.diagram, walls, shortest, s);
+		const Cells cells = mergeShortEdges(voronoi.diagram, walls, shortest, s);
 		requireWhole(cells, region);
 		return cells;
 	}

@@ -22,9 +22,9 @@ Zones outlineOf(const Polygon& polygon)
 	return zones;
 }
 
-void triangulateOutline(Mesh& mesh, const Zones& zones)
+void triangulateOutline(Triangulation& mesh, const Zones& zones)
 {
-	std::vector<Mesh::Vertex_handle> node;
+	std::vector<Triangulation::Vertex_handle> node;
 	for (size_t i = 0; i < zones.points.size(); ++i) {
 		node.push_back(mesh.insert(toK(zones.points[i])));
 		node.back()->info() = int(i);
@@ -35,18 +35,18 @@ void triangulateOutline(Mesh& mesh, const Zones& zones)
 
 	for (auto f = mesh.all_faces_begin(); f != mesh.all_faces_end(); ++f)
 		f->info() = false;
-	std::vector<Mesh::Face_handle> todo;
-	const auto                     enter = [&](Mesh::Face_handle f) {
+	std::vector<Triangulation::Face_handle> todo;
+	const auto                              enter = [&](Triangulation::Face_handle f) {
                 if (f->info()) return;
                 f->info() = true;
                 todo.push_back(f);
 	};
 	for (const auto& ring : zones.rings) // the material is on the left of every outline edge; from there to where no outline is crossed
 		for (size_t k = 0, n = ring.size(); k < n; ++k) {
-			Mesh::Face_handle f;
-			int               i = 0;
+			Triangulation::Face_handle f;
+			int                        i = 0;
 			mesh.is_edge(node[ring[k]], node[ring[(k + 1) % n]], f, i);
-			if (f->vertex(Mesh::ccw(i)) != node[ring[k]]) f = f->neighbor(i);
+			if (f->vertex(Triangulation::ccw(i)) != node[ring[k]]) f = f->neighbor(i);
 			enter(f);
 		}
 	while (!todo.empty()) {
@@ -57,9 +57,9 @@ void triangulateOutline(Mesh& mesh, const Zones& zones)
 	}
 }
 
-std::array<int, 3> nodesOf(Mesh::Face_handle f) { return { f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info() }; }
+std::array<int, 3> nodesOf(Triangulation::Face_handle f) { return { f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info() }; }
 
-void takeTriangles(const Mesh& mesh, Zones& zones)
+void takeTriangles(const Triangulation& mesh, Zones& zones)
 {
 	for (auto f = mesh.finite_faces_begin(); f != mesh.finite_faces_end(); ++f) {
 		if (!f->info()) continue;

@@ -95,8 +95,8 @@ Zones cornerZones(const Ring& ring) { return cornerZones(Polygon { ring, {} }); 
 Zones cornerZones(const Polygon& polygon)
 {
 	requireSimple(polygon, "cornerZones");
-	Zones zones = outlineOf(polygon);
-	Mesh  mesh;
+	Zones         zones = outlineOf(polygon);
+	Triangulation mesh;
 	triangulateOutline(mesh, zones);
 	takeTriangles(mesh, zones);
 	return checked(zones, "cornerZones");

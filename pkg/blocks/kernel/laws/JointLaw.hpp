@@ -77,7 +77,7 @@ inline JointStep advance(const JointParams& p, JointState old, Real un, Real us)
 	}
 
 	JointStep now { 0, 0, old };
-	if (sigma < p.tensionResidual) { // closed: friction
+	if (sigma <= p.tensionResidual) { // closed: friction; it is closed at no stress, too
 		const Real limit = std::max(Real(0), p.cohesionResidual - sigma * p.tanPhiResidual);
 		now.sigma        = sigma;
 		now.tau          = std::clamp(tau, -limit, limit);

@@ -33,7 +33,19 @@ struct CapParams {
 	Real energy      = 0; ///< dissipated after the peak, above the residual strength [J/m2]
 	Real shear       = 0; ///< Css [-]
 	Real linear      = 0; ///< Cn [Pa]
+
+	bool operator==(const CapParams& o) const
+	{
+		return strength == o.strength && first == o.first && residual == o.residual && peakClosure == o.peakClosure && energy == o.energy
+			&& shear == o.shear && linear == o.linear;
+	}
 };
+
+/// Whether stresses are beyond the cap before it has yielded at all.
+inline bool beyondCap(const CapParams& c, Real sigma, Real tau)
+{
+	return c.strength > 0 && sigma * sigma + c.shear * tau * tau + c.linear * sigma > c.first * (c.first - c.linear);
+}
 
 /// What softening adds to a joint's properties. Without it (both energies 0) a joint is brittle.
 struct SofteningParams {
@@ -45,6 +57,11 @@ struct SofteningParams {
 	CapParams cap;
 
 	bool softens() const { return energyI > 0; }
+	bool operator==(const SofteningParams& o) const
+	{
+		return energyI == o.energyI && energyII == o.energyII && lastingShare == o.lastingShare && dilationDecay == o.dilationDecay
+			&& dilationPressure == o.dilationPressure && cap == o.cap;
+	}
 };
 
 /// What a point that softens remembers besides its JointState.
@@ -81,8 +98,7 @@ void validate(const JointParams&, const SofteningParams&);
 /// nothing changes. Exact and the same as for the brittle law, but for the cap. Points that have yielded, ever so little, are not intact.
 inline bool elastic(const JointParams& p, const SofteningParams& s, Joint status, Real sigma, Real tau)
 {
-	return status == Joint::intact && sigma <= p.tension && std::abs(tau) <= p.cohesion - sigma * p.tanPhi
-		&& (s.cap.strength == 0 || sigma * sigma + s.cap.shear * tau * tau + s.cap.linear * sigma <= s.cap.first * (s.cap.first - s.cap.linear));
+	return status == Joint::intact && sigma <= p.tension && std::abs(tau) <= p.cohesion - sigma * p.tanPhi && !beyondCap(s.cap, sigma, tau);
 }
 
 /// One step of a point that is not elastic in it (or of any: the answer is the same).

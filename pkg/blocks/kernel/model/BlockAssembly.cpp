@@ -143,6 +143,8 @@ void BlockAssembly::bond(std::vector<Segment> found)
 	}
 	joints.kinds.assign(1, JointParams());
 	joints.ofMaterials.clear(); // its kinds are no more
+	joints.softening.clear();
+	state.softened = {};
 	joints.kind.assign(joints.count(), 0);
 	for (auto* column : { &state.opening, &state.slip, &state.sigma, &state.tau, &state.slipPlastic, &state.uplift })
 		column->assign(pointCount(), 0);
@@ -151,20 +153,28 @@ void BlockAssembly::bond(std::vector<Segment> found)
 	rebuildJoints();
 }
 
-int BlockAssembly::addKind(const JointParams& params)
+int BlockAssembly::addKind(const JointParams& params, const SofteningParams& softening)
 {
 	validate(params);
+	validate(params, softening);
+	auto& kinds = joints.kinds;
+	if (softening.softens() && !joints.anySoftens()) {
+		joints.softening.resize(kinds.size());
+		state.softened.start(pointCount());
+	}
 	constexpr int remembered = 64; // where every joint has its own properties, looking for equal ones is in vain
-	auto&         kinds      = joints.kinds;
-	const auto    known      = std::find(kinds.end() - std::min(int(kinds.size()), remembered), kinds.end(), params);
-	const int     kind       = int(known - kinds.begin());
-	if (known == kinds.end()) kinds.push_back(params);
-	return kind;
+	const int     count      = int(kinds.size());
+	for (int kind = std::max(0, count - remembered); kind < count; ++kind)
+		if (kinds[kind] == params && (!joints.anySoftens() || joints.softening[kind] == softening)) return kind;
+	kinds.push_back(params);
+	if (joints.anySoftens()) joints.softening.push_back(softening);
+	joints.anyCap = joints.anyCap || softening.cap.strength > 0;
+	return count;
 }
 
-void BlockAssembly::setJoints(int first, int last, const JointParams& params, Joint status)
+void BlockAssembly::setJoints(int first, int last, const JointParams& params, Joint status, const SofteningParams& softening)
 {
-	const int kind = addKind(params);
+	const int kind = addKind(params, softening);
 	for (int i = first; i < last; ++i) {
 		joints.kind[i] = kind;
 		for (int k : { 0, 1 })
@@ -174,9 +184,23 @@ void BlockAssembly::setJoints(int first, int last, const JointParams& params, Jo
 	noteKinds(first, last);
 }
 
-void BlockAssembly::changeJoint(int joint, const JointParams& params)
+void BlockAssembly::requireChangeable(int joint, const JointParams& params, const SofteningParams& softening) const
 {
-	joints.kind[joint] = addKind(params);
+	validate(params);
+	validate(params, softening);
+	for (int p : { 2 * joint, 2 * joint + 1 })
+		require(softening.softens() || state.status[p] != Joint::softening, "a joint that has begun to soften cannot become brittle; joint", joint);
+}
+
+void BlockAssembly::changeJoint(int joint, const JointParams& params, const SofteningParams& softening)
+{
+	requireChangeable(joint, params, softening);
+	if (softening.softens() && !joints.softens(joint)) { // what has broken stays broken
+		addKind(params, softening);                  // the columns are there now
+		for (int p : { 2 * joint, 2 * joint + 1 })
+			if (state.status[p] != Joint::intact && state.status[p] != Joint::unbonded) state.softened.k[p] = softeningEnd;
+	}
+	joints.kind[joint] = addKind(params, softening);
 	noteKinds(joint, joint + 1);
 }
 
@@ -231,6 +255,7 @@ void BlockAssembly::rebuildJoints()
 	joints.node.resize(count);
 	joints.effective.resize(count);
 	joints.kindOfBatch.resize(batches);
+	joints.anyCap = std::any_of(joints.softening.begin(), joints.softening.end(), [](const SofteningParams& s) { return s.cap.strength > 0; });
 	forces.broke.assign(batches, false);
 	for (int i = 0; i < count; ++i) {
 		const Segment& g  = joints.segments[i];

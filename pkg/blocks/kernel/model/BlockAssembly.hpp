@@ -15,16 +15,22 @@ struct Supports {
 
 /// What the joints of a batch dissipated in a step [J].
 struct Dissipated {
-	Real friction = 0; ///< of broken joints; dilation's work against the pressure is taken off
-	Real fracture = 0; ///< set free by contact points that broke
+	Real friction = 0;                   ///< of broken joints; dilation's work against the pressure is taken off
+	Real fracture = 0;                   ///< set free by contact points that broke
+	Real modeI = 0, modeII = 0, cap = 0; ///< of joints that soften, see SofteningWork
 };
 
 /// All contact points as they were at the last step.
 struct JointHistory {
-	std::vector<Real>  opening, slip, sigma, tau;
+	std::vector<Real>  opening, slip, sigma, tau, slipPlastic;
 	std::vector<Joint> status;
+	Softened           softened;
 
-	void take(const State& s) { opening = s.opening, slip = s.slip, sigma = s.sigma, tau = s.tau, status = s.status; }
+	void take(const State& s)
+	{
+		opening = s.opening, slip = s.slip, sigma = s.sigma, tau = s.tau, status = s.status;
+		if (!s.softened.empty()) slipPlastic = s.slipPlastic, softened = s.softened;
+	}
 };
 
 /// Computed anew in each step.
@@ -79,15 +85,20 @@ struct BlockAssembly {
 	/// Takes the segments that detectSegments found: sorts out pairs, sides and the distances at bonding. Properties are still missing.
 	void bond(std::vector<Segment>);
 
-	/// The number of a kind of joints, known or new; the properties are checked.
-	int addKind(const JointParams&);
+	/// The number of a kind of joints, known or new; the properties are checked. The first that softens makes the columns for all that soften.
+	int addKind(const JointParams&, const SofteningParams& = {});
 
 	/// Properties of joints [first, last), and whether they are whole. They are checked.
-	void setJoints(int first, int last, const JointParams&, Joint status = Joint::intact);
+	void setJoints(int first, int last, const JointParams&, Joint status = Joint::intact, const SofteningParams& = {});
 	void setJoints(const JointParams& p) { setJoints(0, joints.count(), p); }
 
+	/// Refuses properties that no joint can have, or that this one cannot have any more.
+	void requireChangeable(int joint, const JointParams&, const SofteningParams&) const;
+
 	/// Other properties for a joint; what has broken stays broken.
-	void changeJoint(int joint, const JointParams&);
+	void changeJoint(int joint, const JointParams&, const SofteningParams&);
+	/// ... its softening stays.
+	void changeJoint(int joint, const JointParams& p) { changeJoint(joint, p, joints.softeningOf(joint)); }
 
 	/// A joint's edges become a free contact: from here on the joint carries nothing. listSides() afterwards.
 	void releaseJoint(int joint);

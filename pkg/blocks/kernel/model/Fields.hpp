@@ -39,9 +39,22 @@ template <class T, class Visit, Only<T, JointParams> = 0> void forEachField(T& x
 	visit("tanDilation", x.tanDilation), visit("dilationLimitSlip", x.dilationLimitSlip);
 }
 
+template <class T, class Visit, Only<T, CapParams> = 0> void forEachField(T& x, Visit&& visit)
+{
+	visit("strength", x.strength), visit("first", x.first), visit("residual", x.residual), visit("peakClosure", x.peakClosure);
+	visit("energy", x.energy), visit("shear", x.shear), visit("linear", x.linear);
+}
+
+template <class T, class Visit, Only<T, SofteningParams> = 0> void forEachField(T& x, Visit&& visit)
+{
+	visit("energyI", x.energyI), visit("energyII", x.energyII), visit("lastingShare", x.lastingShare);
+	visit("dilationDecay", x.dilationDecay), visit("dilationPressure", x.dilationPressure), visit("cap", x.cap);
+}
+
 template <class T, class Visit, Only<T, Joints> = 0> void forEachField(T& x, Visit&& visit)
 {
 	visit("segments", x.segments), visit("pairs", x.pairs), visit("kinds", x.kinds), visit("kind", x.kind), visit("ofMaterials", x.ofMaterials);
+	visit("softening", x.softening);
 }
 
 template <class T, class Visit, Only<T, MotionGroup> = 0> void forEachField(T& x, Visit&& visit)
@@ -82,13 +95,19 @@ template <class T, class Visit, Only<T, Accounts> = 0> void forEachField(T& x, V
 	visit("scaling", x.scaling), visit("released", x.released);
 }
 
+template <class T, class Visit, Only<T, Softened> = 0> void forEachField(T& x, Visit&& visit)
+{
+	visit("k", x.k), visit("opening", x.opening), visit("slipLargest", x.slipLargest), visit("crushing", x.crushing);
+	visit("modeI", x.modeI), visit("modeII", x.modeII), visit("cap", x.cap), visit("snapped", x.snapped);
+}
+
 template <class T, class Visit, Only<T, State> = 0> void forEachField(T& x, Visit&& visit)
 {
 	visit("displacement", x.displacement), visit("velocity", x.velocity), visit("inertia", x.inertia);
 	visit("opening", x.opening), visit("slip", x.slip), visit("sigma", x.sigma), visit("tau", x.tau);
 	visit("slipPlastic", x.slipPlastic), visit("uplift", x.uplift), visit("status", x.status), visit("released", x.released);
 	visit("groups", x.groups), visit("rigid", x.rigid), visit("contacts", x.contacts), visit("search", x.search), visit("lostFriction", x.lostFriction);
-	visit("viscosity", x.viscosity), visit("accounts", x.accounts);
+	visit("viscosity", x.viscosity), visit("accounts", x.accounts), visit("softened", x.softened);
 }
 
 template <class T, class Visit, Only<T, BlockAssembly> = 0> void forEachField(T& x, Visit&& visit)

@@ -37,6 +37,10 @@ namespace {
 			for (const T& x : list)
 				(*this)("", x);
 		}
+		void operator()(const char*, const Softened& s) // brittle scenes keep the numbers that they had before joints could soften
+		{
+			if (!s.empty()) forEachField(s, *this);
+		}
 		template <class T> auto operator()(const char*, const T& x) -> decltype(forEachField(x, std::declval<Hash&>())) { forEachField(x, *this); }
 	};
 

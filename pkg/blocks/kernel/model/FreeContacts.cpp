@@ -29,6 +29,7 @@ namespace {
 			f.sharpness[to]     = tangent > straight ? tangent * tangent : 0;
 			f.rounding[to]      = roundingFraction * std::min(in.norm(), out.norm());
 		}
+		f.leastDepth = std::numeric_limits<Real>::infinity();
 		f.depthLimit.resize(a.blockCount());
 		f.meanEdge.resize(a.blockCount());
 		for (int b = 0; b < a.blockCount(); ++b) {
@@ -41,6 +42,7 @@ namespace {
 			}
 			f.depthLimit[b] = area / outline; // between half the inradius (compact blocks) and all of it (thin ones)
 			f.meanEdge[b]   = outline / (a.mesh.firstEdge[b + 1] - a.mesh.firstEdge[b]);
+			f.leastDepth    = std::min(f.leastDepth, f.depthLimit[b]);
 		}
 	}
 
@@ -58,6 +60,7 @@ Real meanEdge(const BlockAssembly& a, int block)
 void sortContacts(BlockAssembly& a)
 {
 	FreeContacts& f = a.contacts;
+	f.sleepsUntil.assign(a.state.contacts.size(), 0);
 	f.order.clear();
 	for (int i = 0; i < int(a.state.contacts.size()); ++i)
 		if (a.state.contacts[i].block[0] >= 0) f.order.push_back(i);
@@ -94,6 +97,7 @@ void nameEdges(const BlockAssembly& a, EdgePair& e)
 void forgetActive(FreeContact& contact)
 {
 	contact.allRestUntil = 0;
+	contact.looks        = 0;
 	contact.restsUntil.assign(contact.edges.size(), 0);
 	contact.active.clear();
 	contact.active.reserve(contact.edges.size()); // nothing is allocated inside a step

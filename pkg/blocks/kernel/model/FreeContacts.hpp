@@ -36,6 +36,7 @@ struct FreeContact {
 	std::vector<EdgePair>     edges;            ///< sorted by edge
 	std::vector<EdgeGeometry> geometry;         ///< of each of `active`, and room for all that might be
 	std::vector<Real>         restsUntil;       ///< of each of `edges`: it does not touch before the paths of the two blocks add up to this [m]
+	unsigned                  looks    = 0;     ///< since its pairs were found
 	Real                      friction = 0;     ///< dissipated so far [J]
 	JointParams               joint;            ///< residual values count; kn = 0 until they are known
 };
@@ -69,8 +70,10 @@ struct FreeContacts {
 	std::vector<Real> sharpness, rounding;  ///< of grid points on outlines, see EdgeShape
 	std::vector<int>  edgeFrom;             ///< grid point -> the boundary edge that starts there, or -1
 	std::vector<Real> depthLimit, meanEdge; ///< of blocks [m]
+	Real              leastDepth = 0;       ///< the least of depthLimit [m]
 
 	// ---- how far things have moved
+	std::vector<Real> sleepsUntil; ///< contact -> nothing of it touches before the paths of its two blocks add up to this; 0: to be looked at [m]
 	Odometer         odometer;
 	std::vector<int> waiting; ///< broken joints that will be released, in their order
 

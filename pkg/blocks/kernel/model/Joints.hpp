@@ -1,6 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
-#include <blocks/kernel/laws/JointLaw.hpp>
+#include <blocks/kernel/laws/SofteningLaw.hpp>
 
 namespace blocks {
 
@@ -35,9 +35,10 @@ struct Joints {
 	std::vector<Pair>    pairs;
 
 	// ---- properties: few kinds, many joints
-	std::vector<JointParams> kinds { JointParams() }; ///< the first stands for joints without properties yet
-	std::vector<int>         kind;                    ///< of each joint
-	std::vector<int>         ofMaterials;             ///< kind of contacts between two materials, by material1 * materials + material2; 0: none
+	std::vector<JointParams>     kinds { JointParams() }; ///< the first stands for joints without properties yet
+	std::vector<int>             kind;                    ///< of each joint
+	std::vector<int>             ofMaterials;             ///< kind of contacts between two materials, by material1 * materials + material2; 0: none
+	std::vector<SofteningParams> softening;               ///< of each kind; empty as long as all joints are brittle
 
 	/// The kind of contacts between two materials; 0 if there is none.
 	int kindOfMaterials(int m1, int m2) const
@@ -47,7 +48,8 @@ struct Joints {
 	}
 
 	// ---- computed
-	std::vector<std::array<int, 4>> node; ///< of each joint, as in its segment
+	bool                            anyCap = false; ///< whether some kind has a cap
+	std::vector<std::array<int, 4>> node;           ///< of each joint, as in its segment
 	JointColumns                    columns;
 	std::vector<int>                effective;       ///< kind of each joint, or releasedKind
 	std::vector<int>                kindOfBatch;     ///< the kind of all joints in a batch, or mixedKinds
@@ -60,6 +62,11 @@ struct Joints {
 	int                count() const { return int(segments.size()); }
 	const JointParams& of(int joint) const { return kinds[kind[joint]]; }
 	const JointParams& ofPoint(int point) const { return of(point / 2); }
+
+	bool anySoftens() const { return !softening.empty(); }
+	bool softens(int joint) const { return anySoftens() && softening[kind[joint]].softens(); }
+	/// What a joint has of softening; nothing if it is brittle.
+	SofteningParams softeningOf(int joint) const { return anySoftens() ? softening[kind[joint]] : SofteningParams(); }
 };
 
 } // namespace blocks

@@ -17,6 +17,29 @@ struct Accounts {
 	ReleasedWork released; ///< of groups that are no more
 };
 
+/// What contact points of joints that soften remember besides, as columns; empty where all joints are brittle.
+struct Softened {
+	std::vector<Real> k, opening, slipLargest, crushing; ///< see SofteningState
+
+	// ---- dissipated so far, booked as in Accounts [J]
+	Real modeI = 0, modeII = 0, cap = 0;
+
+	long snapped = 0; ///< how often a point snapped back: the pressure was too high for it to follow its softening curve
+
+	bool           empty() const { return k.empty(); }
+	SofteningState of(int point) const { return { k[point], opening[point], slipLargest[point], crushing[point] }; }
+	void           set(int point, const SofteningState& s)
+	{
+		k[point] = s.k, opening[point] = s.opening, slipLargest[point] = s.slipLargest, crushing[point] = s.crushing;
+	}
+	/// All points as they are before anything happens.
+	void start(int points)
+	{
+		for (auto* column : { &k, &opening, &slipLargest, &crushing })
+			column->assign(points, 0);
+	}
+};
+
 /// All that a step changes and the next one needs. It is saved, put back, compared and hashed as one.
 struct State {
 	// ---- grid points
@@ -29,6 +52,7 @@ struct State {
 	std::vector<Real>  sigma, tau;          ///< joint stresses [Pa]
 	std::vector<Real>  slipPlastic, uplift; ///< see JointState [m]
 	std::vector<Joint> status;
+	Softened           softened;
 
 	// ---- joints
 	std::vector<char> released; ///< whether the joint's edges are a free contact by now

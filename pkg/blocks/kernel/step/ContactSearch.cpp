@@ -100,22 +100,24 @@ namespace {
 		forgetActive(contact);
 	}
 
-	/// The contact of two blocks, made if there is none. Its properties are those of the two materials, if they are known.
-	int makeContact(BlockAssembly& a, const std::array<int, 2>& blocks)
+	/// Contacts of those pairs of blocks [sorted] that have none. Their properties are those of the two materials, if they are known.
+	void makeContacts(BlockAssembly& a, const std::vector<std::array<int, 2>>& wanted)
 	{
-		const int is = contactOf(a, blocks[0], blocks[1]);
-		if (is >= 0) return is;
 		std::vector<FreeContact>& all  = a.state.contacts;
-		int                       slot = 0;
-		while (slot < int(all.size()) && all[slot].block[0] >= 0)
-			++slot;
-		if (slot == int(all.size())) all.emplace_back();
-		all[slot]       = {};
-		all[slot].block = blocks;
-		const int kind  = a.joints.kindOfMaterials(a.mesh.blockMaterial[blocks[0]], a.mesh.blockMaterial[blocks[1]]);
-		if (kind > 0) all[slot].joint = a.joints.kinds[kind];
-		sortContacts(a);
-		return slot;
+		size_t                    slot = 0, made = 0;
+		for (size_t i = 0; i < wanted.size(); ++i) {
+			const auto& blocks = wanted[i];
+			if ((i > 0 && wanted[i - 1] == blocks) || contactOf(a, blocks[0], blocks[1]) >= 0) continue;
+			while (slot < all.size() && all[slot].block[0] >= 0)
+				++slot;
+			if (slot == all.size()) all.emplace_back();
+			all[slot]       = {};
+			all[slot].block = blocks;
+			const int kind  = a.joints.kindOfMaterials(a.mesh.blockMaterial[blocks[0]], a.mesh.blockMaterial[blocks[1]]);
+			if (kind > 0) all[slot].joint = a.joints.kinds[kind];
+			++made;
+		}
+		if (made > 0) sortContacts(a);
 	}
 
 	/// A joint dilates until it has slid by its limit slip, or by this share of its length.
@@ -128,10 +130,18 @@ namespace {
 	{
 		const JointParams& p = a.joints.of(joint);
 		for (int i : { 2 * joint, 2 * joint + 1 })
-			if (a.state.status[i] == Joint::intact) return Release::never; // until it breaks, which will be noticed
+			if (a.state.status[i] == Joint::intact || a.state.status[i] == Joint::softening)
+				return Release::never; // until it breaks, which will be noticed
+		if (a.joints.softens(joint)) {
+			const Softened& soft = a.state.softened;
+			if (a.joints.softeningOf(joint).cap.strength > 0) return Release::never; // free contacts have no cap
+			for (int i : { 2 * joint, 2 * joint + 1 })
+				if (a.state.status[i] != Joint::unbonded && soft.k[i] < softeningEnd) return Release::later; // some bond is left
+		}
 		for (int i : { 2 * joint, 2 * joint + 1 }) {
 			if (a.state.sigma[i] > 0) return Release::later; // residual tension stays with the point law
-			if (p.tanDilation > 0 && a.state.sigma[i] < 0    // so does a joint that goes on dilating
+			// so does a joint that goes on dilating, and one that rests on ends raised by different amounts, which a free contact would level
+			if (a.state.sigma[i] < 0 && (p.tanDilation > 0 || a.state.uplift[2 * joint] != a.state.uplift[2 * joint + 1])
 			    && std::abs(a.state.slipPlastic[i]) < std::min(p.dilationLimitSlip, dilatesFor * 2 * a.joints.segments[joint].area / a.thickness))
 				return Release::later;
 		}
@@ -139,12 +149,12 @@ namespace {
 	}
 
 	/// Turns a broken joint into a free edge pair, which takes over its slip.
-	void release(BlockAssembly& a, int joint, int contact)
+	void release(BlockAssembly& a, int joint, int contact, bool isNew)
 	{
 		const Segment& g = a.joints.segments[joint];
 		a.releaseJoint(joint); // from here on it carries nothing
 		FreeContact& c = a.state.contacts[contact];
-		if (!(c.joint.kn > 0)) c.joint = a.joints.of(joint);
+		if (isNew || !(c.joint.kn > 0)) c.joint = a.joints.of(joint); // not those of two materials that were never bonded
 		detect(a, c);
 		const auto key = edgesOf(a, g);
 		const auto at
@@ -177,6 +187,65 @@ namespace {
 		for (int i = 0; i < count; ++i)
 			moved += !(std::abs(now[i] - then[i]) <= limit);
 		return moved;
+	}
+
+	/// Whether a number is above the limit in size, or none.
+	WIDE std::int64_t countAbove(const Real* __restrict now, int count, Real limit)
+	{
+		std::int64_t above = 0;
+		for (int i = 0; i < count; ++i)
+			above += !(std::abs(now[i]) <= limit);
+		return above;
+	}
+
+	/// Mean velocity of a block's grid points, and the most by which one of them differs from another block's mean [m/s].
+	Vec2 meanVelocity(const BlockAssembly& a, int block)
+	{
+		Vec2 sum = Vec2::Zero();
+		for (int n = a.mesh.firstNode[block]; n < a.mesh.firstNode[block + 1]; ++n)
+			sum += a.state.velocity[n];
+		return sum / (a.mesh.firstNode[block + 1] - a.mesh.firstNode[block]);
+	}
+	Real fastest(const BlockAssembly& a, int block, const Vec2& against)
+	{
+		Real square = 0;
+		for (int n = a.mesh.firstNode[block]; n < a.mesh.firstNode[block + 1]; ++n)
+			square = std::max(square, (a.state.velocity[n] - against).squaredNorm());
+		return std::sqrt(square);
+	}
+
+	/// Where a block was a step ago, is, and will be a step on, as seen from one that moves.
+	Box sweptBox(const BlockAssembly& a, int block, const Vec2& against, Real dt)
+	{
+		Box box = boxOf(a, block);
+		for (int e = a.mesh.firstEdge[block]; e < a.mesh.firstEdge[block + 1]; ++e) {
+			const int  n    = a.mesh.edgeNodes[e][0];
+			const Vec2 step = dt * (a.state.velocity[n] - against);
+			box.include(a.position(n) - step);
+			box.include(a.position(n) + step);
+		}
+		return box;
+	}
+
+	/// Refuses blocks that come too fast for their contact with another one: they would be deep in it, or past it, before it acts.
+	void refuseTunnelling(const BlockAssembly& a, Real dt)
+	{
+		const FreeContacts& f = a.contacts;
+		for (int b = 0; b < a.blockCount(); ++b) {
+			const Real own = fastest(a, b, Vec2::Zero());
+			if (own * dt <= mostAStep * f.leastDepth) continue;
+			for (int other = 0; other < a.blockCount(); ++other) {
+				if (other == b) continue;
+				const Vec2 with  = meanVelocity(a, other);
+				const Real speed = fastest(a, b, with), limit = mostAStep * std::min(f.depthLimit[b], f.depthLimit[other]);
+				if (speed * dt <= limit || !sweptBox(a, b, with, dt).meets(boxOf(a, other), 0)) continue;
+				if (pairOf(a, { std::min(b, other), std::max(b, other) }) >= 0 && !bondedEdges(a, ordered(b, other)).empty()) continue;
+				throw std::runtime_error(
+					"block " + std::to_string(b) + " nears block " + std::to_string(other) + " at " + shown(speed, 6) + " m/s, "
+					+ shown(speed * dt, 3) + " m a step, and might pass through it: contacts need steps of at most " + shown(limit, 3)
+					+ " m, so O.dt must not exceed " + shown(limit / speed, 3) + " s at this speed");
+			}
+		}
 	}
 
 	/// Lengths of the paths of those blocks that have contacts.
@@ -265,6 +334,7 @@ namespace {
 		++f.looks;
 		if (moved.empty()) return;
 
+		f.sleepsUntil.assign(a.state.contacts.size(), 0);
 		std::vector<char> hasMoved(a.blockCount(), false);
 		for (int b : moved)
 			hasMoved[b] = true;
@@ -279,15 +349,22 @@ namespace {
 			changed = true;
 		}
 		if (changed) sortContacts(a);
+		std::vector<std::array<int, 2>>    keys;
+		std::vector<std::vector<EdgePair>> edges;
 		for (const auto& key : newNeighbours(a, moved)) {
 			FreeContact candidate;
 			candidate.block = key;
 			detect(a, candidate);
 			if (candidate.edges.empty()) continue; // near, but no edges that could touch
-			FreeContact& made = a.state.contacts[makeContact(a, key)];
-			made.edges        = std::move(candidate.edges);
-			forgetActive(made);
+			keys.push_back(key);
+			edges.push_back(std::move(candidate.edges));
 			changed = true;
+		}
+		makeContacts(a, keys);
+		for (size_t i = 0; i < keys.size(); ++i) {
+			FreeContact& made = a.state.contacts[contactOf(a, keys[i][0], keys[i][1])];
+			made.edges        = std::move(edges[i]);
+			forgetActive(made);
 		}
 		if (changed) ++f.version;
 	}
@@ -311,16 +388,25 @@ namespace {
 
 	void releaseBroken(BlockAssembly& a)
 	{
-		FreeContacts& f    = a.contacts;
-		size_t        kept = 0;
-		for (int joint : f.waiting) {
-			if (releaseOf(a, joint) != Release::now)
+		FreeContacts&                   f    = a.contacts;
+		size_t                          kept = 0;
+		std::vector<int>                now;
+		std::vector<std::array<int, 2>> blocks;
+		std::vector<char>               isFirst; // whether these two blocks have no contact yet
+		for (int joint : f.waiting)
+			if (releaseOf(a, joint) == Release::now) {
+				const auto& two = a.joints.segments[joint].block;
+				isFirst.push_back(contactOf(a, two[0], two[1]) < 0 && (blocks.empty() || blocks.back() != two));
+				now.push_back(joint);
+				blocks.push_back(two);
+			} else
 				f.waiting[kept++] = joint;
-			else
-				release(a, joint, makeContact(a, a.joints.segments[joint].block));
-		}
-		if (kept == f.waiting.size()) return;
+		if (now.empty()) return;
 		f.waiting.resize(kept);
+		makeContacts(a, blocks);
+		for (size_t i = 0; i < now.size(); ++i)
+			release(a, now[i], contactOf(a, blocks[i][0], blocks[i][1]), isFirst[i]);
+		f.sleepsUntil.assign(a.state.contacts.size(), 0);
 		a.listSides();
 		++f.version;
 	}
@@ -355,9 +441,10 @@ void setGeneralContact(BlockAssembly& a, bool wanted)
 	rebuildContacts(a);
 }
 
-void prepareContacts(BlockAssembly& a)
+void prepareContacts(BlockAssembly& a, Real dt)
 {
-	FreeContacts& f = a.contacts;
+	FreeContacts& f     = a.contacts;
+	const bool    first = !f.started; // the step may not have its length yet
 	if (!f.started && !start(a))
 		look(a, true);
 	else {
@@ -367,6 +454,8 @@ void prepareContacts(BlockAssembly& a)
 	}
 	collectBroken(a);
 	if (!f.waiting.empty()) releaseBroken(a);
+	const Real perAxis = mostAStep * f.leastDepth * std::sqrt(Real(0.5));
+	if (!first && dt > 0 && countAbove(a.state.velocity.data()->data(), 2 * a.nodeCount(), perAxis / dt) > 0) refuseTunnelling(a, dt);
 }
 
 } // namespace blocks

@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
 #include <blocks/kernel/Wide.hpp>
+#include <blocks/kernel/step/ContactSearch.hpp>
 #include <blocks/kernel/step/Contacts.hpp>
 #include <limits>
 
@@ -9,6 +10,19 @@ namespace {
 
 	/// Paths are sums over up to 1e9 steps: what is derived from them keeps this much away from rounding.
 	constexpr Real roundingShare = 1 - 1e-6;
+
+	/// Of so many looks at a contact one measures how far its pairs are from touching. No result depends on it.
+	constexpr int measuredLook = 8;
+
+	/// Asks the memory for what the next step of a contact reads.
+	void fetch(const FreeContact& c)
+	{
+		for (int i : c.active) {
+			const char* edge = reinterpret_cast<const char*>(&c.edges[i]);
+			for (size_t line = 0; line < sizeof(EdgePair); line += 64)
+				__builtin_prefetch(edge + line);
+		}
+	}
 
 	/// The two blocks of a contact together [m].
 	Real pathOf(const BlockAssembly& a, const FreeContact& c) { return a.contacts.odometer.path[c.block[0]] + a.contacts.odometer.path[c.block[1]]; }
@@ -45,6 +59,8 @@ WIDE void updateContact(BlockAssembly& a, int contact)
 {
 	FreeContact& c    = a.state.contacts[contact];
 	const Real   path = pathOf(a, c);
+	// Pairs at one corner have no distance that they could rest for: asking for it costs more than looking again.
+	const bool measures = c.looks++ % measuredLook == 0;
 
 	/// Whether a pair touches, and what it is like if it does.
 	auto look = [&](int i, EdgeGeometry& g) {
@@ -57,9 +73,12 @@ WIDE void updateContact(BlockAssembly& a, int contact)
 				e.slip = e.sigma = e.tau = { 0, 0 };
 				e.area                   = 0;
 			}
-			const Real lever = 1 + 2 * e.uplift / (x[1] - x[0]).norm(); // what is raised moves more where the edge turns
-			c.restsUntil[i]  = path + roundingShare * freeDistance(x, e.shape) / lever;
-			c.allRestUntil   = std::min(c.allRestUntil, c.restsUntil[i]);
+			c.restsUntil[i] = path;
+			if (measures) {
+				const Real lever = 1 + 2 * e.uplift / (x[1] - x[0]).norm(); // what is raised moves more where the edge turns
+				c.restsUntil[i] += roundingShare * freeDistance(x, e.shape) / lever;
+			}
+			c.allRestUntil = std::min(c.allRestUntil, c.restsUntil[i]);
 		}
 		return e.touching = g.active;
 	};
@@ -122,11 +141,20 @@ WIDE void advanceContact(BlockAssembly& a, int contact, Real dt)
 
 void advanceContacts(BlockAssembly& a, Real dt, [[maybe_unused]] int threads)
 {
-	const std::vector<int>& order = a.contacts.order;
-#pragma omp parallel for schedule(dynamic, 16) num_threads(threads) if (threads > 1)
-	for (int i = 0; i < int(order.size()); ++i) {
-		updateContact(a, order[i]);
-		advanceContact(a, order[i], dt);
+	const std::vector<int>& order       = a.contacts.order;
+	Real* const             sleepsUntil = a.contacts.sleepsUntil.data();
+	const int               count       = int(order.size());
+	constexpr int           ahead       = 4; // contacts lie all over the memory: what comes soon is fetched early
+#pragma omp parallel for schedule(dynamic, 64) num_threads(threads) if (threads > 1)
+	for (int i = 0; i < count; ++i) {
+		if (i + 2 * ahead < count) __builtin_prefetch(&a.state.contacts[order[i + 2 * ahead]]);
+		if (i + ahead < count) fetch(a.state.contacts[order[i + ahead]]);
+		const int          contact = order[i];
+		const FreeContact& c       = a.state.contacts[contact];
+		if (sleepsUntil[contact] > 0 && pathOf(a, c) < sleepsUntil[contact]) continue;
+		updateContact(a, contact);
+		advanceContact(a, contact, dt);
+		sleepsUntil[contact] = c.active.empty() ? c.allRestUntil : 0;
 	}
 }
 
@@ -194,6 +222,25 @@ ContactEnd contactEnd(const BlockAssembly& a, const FreeContact& c, int active, 
 	const EdgeGeometry& g   = c.geometry[active];
 	const EdgeEnd       end = edgeEnd(raisedCorners(a, e), g, k);
 	return { a.mesh.reference[e.node[0]] + (end.onA + end.onB) / 2, { g.t.y(), -g.t.x() }, g.depth[k], e.sigma[k], e.tau[k], e.area };
+}
+
+PointStresses pointStresses(const BlockAssembly& a, int first, int last)
+{
+	auto          part = [&](const std::vector<Real>& all) { return std::vector<Real>(all.begin() + 2 * first, all.begin() + 2 * last); };
+	PointStresses out { part(a.state.sigma), part(a.state.tau) };
+	for (int i = first; i < last; ++i) {
+		if (!a.state.released[i]) continue;
+		const Segment&           g       = a.joints.segments[i];
+		const int                contact = contactOf(a, g.block[0], g.block[1]);
+		const std::array<int, 2> key { a.contacts.edgeFrom[g.node[0]], a.contacts.edgeFrom[g.node[2]] };
+		if (contact < 0) continue;
+		const auto& edges = a.state.contacts[contact].edges;
+		const auto  at = std::lower_bound(edges.begin(), edges.end(), key, [](const EdgePair& e, const std::array<int, 2>& k) { return e.edge < k; });
+		if (at == edges.end() || at->edge != key || !at->touching) continue;
+		for (int k : { 0, 1 })
+			out.sigma[2 * (i - first) + k] = at->sigma[k], out.tau[2 * (i - first) + k] = at->tau[k];
+	}
+	return out;
 }
 
 } // namespace blocks

@@ -36,4 +36,11 @@ struct ContactEnd {
 };
 ContactEnd contactEnd(const BlockAssembly&, const FreeContact&, int active, int k);
 
+/// Normal and shear stresses of contact points; where a joint has become a free contact, of the edges that took its place. Tension positive [Pa].
+struct PointStresses {
+	std::vector<Real> sigma, tau;
+};
+/// Of joints [first, last).
+PointStresses pointStresses(const BlockAssembly&, int first, int last);
+
 } // namespace blocks

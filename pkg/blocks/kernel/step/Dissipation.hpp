@@ -14,6 +14,9 @@ struct BatchBefore {
 	Real  opening[size], slip[size], sigma[size], tau[size];
 	Joint status[size];
 
+	// ---- only where some joint softens
+	Real slipPlastic[size], softening[size], softenedOpening[size], slipLargest[size], crushing[size];
+
 	/// From columns of a state or a history.
 	template <class Columns> void take(const Columns& c, int firstJoint, int count)
 	{
@@ -23,6 +26,12 @@ struct BatchBefore {
 		std::copy_n(c.sigma.data() + from, n, sigma);
 		std::copy_n(c.tau.data() + from, n, tau);
 		std::copy_n(c.status.data() + from, n, status);
+		if (c.softened.empty()) return;
+		std::copy_n(c.slipPlastic.data() + from, n, slipPlastic);
+		std::copy_n(c.softened.k.data() + from, n, softening);
+		std::copy_n(c.softened.opening.data() + from, n, softenedOpening);
+		std::copy_n(c.softened.slipLargest.data() + from, n, slipLargest);
+		std::copy_n(c.softened.crushing.data() + from, n, crushing);
 	}
 };
 

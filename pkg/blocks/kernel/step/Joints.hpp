@@ -24,6 +24,9 @@ Vec2 contactPosition(const BlockAssembly&, int point);
 /// What a joint that is not released exerts on a1, b1, a2, b2 [N].
 std::array<Vec2, 4> forcesOf(const BlockAssembly&, int joint);
 
+/// Of a contact point: 0 whole or never bonded, 1 nothing but residual strength is left; brittle ones have no other values.
+Real damageOf(const BlockAssembly&, int point);
+
 /// Opening and slip at all contact points of a range, into the state.
 void updateKinematics(BlockAssembly&, JointRange);
 
@@ -37,6 +40,20 @@ struct Brittle {
 	static constexpr bool plainlyElastic = true;
 	JointStep             operator()(const JointParams& p, const JointState& s, Real opening, Real slip) const { return advance(p, s, opening, slip); }
 };
+
+/// The law of joints of which some soften; the others stay brittle. The points' softening is in the assembly's columns.
+struct Softening {
+	static constexpr bool plainlyElastic = true;
+};
+
+/// Calls work(law) with the law that the joints' properties ask for.
+template <class Work> void withOwnLaw(const BlockAssembly& a, const Work& work)
+{
+	if (a.joints.anySoftens())
+		work(Softening {});
+	else
+		work(Brittle {});
+}
 
 /// Works on a range of joints; one virtual call a range. A law of one's own may keep columns of its own, indexed by contact point.
 class JointLawOnRange {
@@ -63,6 +80,17 @@ namespace step {
 	template <class Law> struct IsPlainlyElastic<Law, std::enable_if_t<Law::plainlyElastic>> : std::true_type {
 	};
 
+	/// One contact point by a law.
+	template <class Law> JointStep advancePoint(const Law& law, BlockAssembly& a, int point, Real opening, Real slip)
+	{
+		return law(a.joints.ofPoint(point), a.state.joint(point), opening, slip);
+	}
+	JointStep advancePoint(const Softening&, BlockAssembly&, int point, Real opening, Real slip);
+
+	/// How many points are beyond a cap, which elasticStresses does not know.
+	template <class Law> int beyondCaps(const Law&, const BlockAssembly&, int, int, const JointBatch&) { return 0; }
+	int                      beyondCaps(const Softening&, const BlockAssembly&, int first, int count, const JointBatch&);
+
 	/// Stresses of joints first, first + 1, ... from their openings and slips in the batch; states change where joints break or slide.
 	/// Whether every contact point was intact and is.
 	template <class Law> bool advanceBatch(BlockAssembly& a, int first, int count, const Law& law, JointBatch& b)
@@ -74,7 +102,7 @@ namespace step {
 			int          whole  = 0;
 			for (int p = 0; p < 2 * count; ++p)
 				whole += status[p] == Joint::intact;
-			if (elasticStresses(count, b) == 0 && whole == 2 * count) return true;
+			if (elasticStresses(count, b) == 0 && whole == 2 * count && beyondCaps(law, a, first, count, b) == 0) return true;
 		}
 		for (int i = 0; i < count; ++i) {
 			if (a.joints.effective[first + i] == releasedKind) {
@@ -82,10 +110,9 @@ namespace step {
 					b.sigma[k][i] = b.tau[k][i] = 0;
 				continue;
 			}
-			const JointParams& params = a.joints.of(first + i);
 			for (int k : { 0, 1 }) {
 				const int       p   = 2 * (first + i) + k;
-				const JointStep now = law(params, s.joint(p), b.opening[k][i], b.slip[k][i]);
+				const JointStep now = advancePoint(law, a, p, b.opening[k][i], b.slip[k][i]);
 				b.sigma[k][i]       = now.sigma;
 				b.tau[k][i]         = now.tau;
 				if (now.state.status != s.status[p])

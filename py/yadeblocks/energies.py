@@ -1,0 +1,36 @@
+# yade-blocks, GPL-2.0-or-later
+"""What `O.energy` says of the blocks, added up [J]; `O.trackEnergy` must have been on from the first step.
+
+	energies.spent() / section      # work that is neither stored nor kinetic: what has become heat [J/m2 = N/m]
+	energies.dissipated()           # where: {"mode_I": ..., "mode_II": ..., "friction": ..., "cap": ..., "brittle": ..., "damping": ...}
+"""
+
+#: Names in `O.energy` by what they mean; without joints that soften the first two and the cap are missing there.
+sinks = {
+	"mode_I": "blockModeI", "mode_II": "blockModeII", "friction": "blockFriction", "cap": "blockCap", "brittle": "blockFracture", "damping": "blockDamping"
+}
+
+
+def _entries():
+	from yade.wrapper import Omega
+	entries = dict(Omega().energy.items())
+	if "blockWork" not in entries: raise RuntimeError("energies: O.energy is empty; set O.trackEnergy before the first step")
+	return entries
+
+
+def stored():
+	"""Elastic energy of zones, joints and contacts, and kinetic energy."""
+	entries = _entries()
+	return sum(entries[name] for name in ("blockZones", "blockJoints", "blockKinetic"))
+
+
+def spent():
+	"""The work of loads and groups less what is stored: it must be what was dissipated. Kinetic energy that scaled masses brought is no work."""
+	entries = _entries()
+	return -entries["blockWork"] - entries["blockScaling"] - stored()
+
+
+def dissipated():
+	"""By cause: opening, slip without friction, friction and crushing of joints, breaking of brittle ones, damping."""
+	entries = _entries()
+	return {cause: entries.get(name, 0.0) for cause, name in sinks.items()}

@@ -1,0 +1,60 @@
+# yade-blocks, GPL-2.0-or-later
+"""Sets of properties of joints that soften, and the keys by which the scenarios choose among them. SI units.
+
+	measured     what the laboratory measured and the literature gives, fixed before any run; nothing is fitted
+
+Tensile strength: Van der Pluijm 1992; cohesion, friction, residual friction: Van der Pluijm 1993 (both as in the paper, which gives no energies). Fracture
+energies of his tests, as Lourenco 1996 reports them: GfI 5 to 20 N/m for strengths of 0.3 to 0.9 N/mm2, of which the middle is taken; GfII 10 to 250 N/m for
+cohesions of 0.1 to 1.8 N/mm2, of which a value in the lower half is taken. Stiffnesses are those of the paper's tables."""
+import math
+from math import atan
+
+from . import experiments, scenario
+
+measured = dict(
+	kn=400e9, ks=200e9, tension=1e6 * experiments.tensileStrength[0], cohesion=1e6 * experiments.shearCohesion,
+	frictionAngle=atan(experiments.shearFriction), frictionAngleResidual=atan(experiments.residualFriction), GfI=12.0, GfII=60.0
+)
+
+_positive = scenario.Rule(lambda v: v == -1 or 0 < v < math.inf, "must be positive (-1: that of the joints)")
+_notNegative = scenario.Rule(lambda v: v == -1 or 0 <= v < math.inf, "must not be negative (-1: that of the joints)")
+_angle = scenario.Rule(lambda angle: angle == -1 or 0 <= angle < 90, "must lie in [0, 90) degrees (-1: that of the joints)")
+_keys = {
+	"kn": ("normal stiffness", "Pa/m", _positive),
+	"ks": ("shear stiffness", "Pa/m", _positive),
+	"cohesion": ("cohesion", "Pa", _notNegative),
+	"tension": ("tensile strength", "Pa", _notNegative),
+	"friction": ("friction angle", "degrees", _angle),
+	"residualFriction": ("friction angle after failure", "degrees", _angle),
+	"dilation": ("dilation angle", "degrees", _angle),
+	"strengths": ("factor on all strengths", "", _positive),
+	"GfI": ("fracture energy in tension", "N/m", _notNegative),
+	"GfII": ("fracture energy in shear", "N/m", _notNegative),
+}
+
+
+def jointKeys(*names):
+	"""Scenario keys for properties of the joints, which stand in place of those of the chosen set: `kn ks cohesion tension friction residualFriction dilation
+	strengths GfI GfII`."""
+	return {name: scenario.Key(-1.0, _keys[name][0], *_keys[name][1:]) for name in names}
+
+
+#: Scenario keys of the scatter of strengths.
+scatterKeys = {
+	"scatter": scenario.Key(
+		-1.0, "coefficient of variation of the joints' strengths", "",
+		(lambda c: c == -1 or 0 <= c <= 1, "must lie in [0, 1] (-1: that of the joints)")
+	),
+	"scatterLength": scenario.Key(-1.0, "correlation length of the strengths", "m", _notNegative),
+}
+
+
+def takeScatter(p, scatter=0.0, length=0.0):
+	"""Puts the set's scatter where the keys leave it open."""
+	if p.scatter == -1: p.scatter = scatter
+	if p.scatterLength == -1: p.scatterLength = length
+
+
+def scatterStrengths(model, p, seed):
+	"""The strengths of a model's joints as the keys say; the field's seed is that of the tessellation. Weibull, as strengths of brittle things are."""
+	if p.scatter > 0: model.scatterStrengths(cov=p.scatter, correlationLength=p.scatterLength, seed=seed)

@@ -1,0 +1,66 @@
+// yade-blocks, GPL-2.0-or-later
+#include <Specimens.hpp>
+#include <algorithm>
+#include <blocks/kernel/geometry/EdgeDivision.hpp>
+
+using namespace specimens;
+
+TEST(EdgeDivision, NeighboursGetTheSameBits)
+{
+	// Two cells on either side of an edge in any direction, their rings started anywhere: the points between are the same ones.
+	std::mt19937                         random(3);
+	std::uniform_real_distribution<Real> u(-1, 1);
+	for (int i = 0; i < 200; ++i) {
+		const Real ax = u(random), ay = u(random), bx = i % 3 ? u(random) : ax, by = u(random);
+		const Vec2 a(ax, ay), b(bx, by), normal(by - ay, ax - bx);
+		const Ring left { a, b, (a + b) / 2 - normal }, right { (a + b) / 2 + normal, b, a };
+		for (int parts : { 2, 3, 7 }) {
+			const Ring one = withEdgesDivided(left, parts), other = withEdgesDivided(right, parts);
+			ASSERT_EQ(int(one.size()), 3 * parts);
+			for (int k = 0; k <= parts; ++k) {
+				EXPECT_EQ(one[k], other[2 * parts - k]);
+				EXPECT_LT((one[k] - (a + (b - a) * k / parts)).norm(), 4 * eps); // coordinates below 1, three roundings
+			}
+		}
+		EXPECT_TRUE(withEdgesDivided(left, 1) == left);
+	}
+}
+
+TEST(EdgeDivision, TrianglesFillTheirCell)
+{
+	const Ring cell { { 0, 0 }, { 2, 0.1 }, { 2.3, 1.1 }, { 1, 1.9 }, { -0.2, 1 } };
+	const auto triangles = trianglesOf(cell);
+	ASSERT_EQ(triangles.size(), cell.size());
+	Real area = 0;
+	for (const Ring& t : triangles) {
+		EXPECT_EQ(t.size(), 3u);
+		EXPECT_GT(signedArea(t), 0);
+		area += signedArea(t);
+	}
+	EXPECT_NEAR(area, signedArea(cell), 20 * eps);
+}
+
+TEST(EdgeDivision, BendingStiffnessFallsTowardsThatOfTheEdge)
+{
+	// Two blocks that turn about the middle of their common edge, by a small angle each way: moment / angle = kn T L^3/12 (1 + 2/n^2), with n joints.
+	// Angle 1e-6: what is not linear in it is of its square, and openings of 1e-6 round by 1e-10.
+	for (int parts : { 1, 2, 4, 8 }) {
+		const JointParams joint = elasticJoint(1e9, 4e8);
+		BlockAssembly     a;
+		a.thickness = 0.7;
+		a.addMaterial(stone());
+		for (const Ring& ring : { Ring { { 0, 0 }, { 1, 0 }, { 1, 0.8 }, { 0, 0.8 } }, Ring { { 1, 0 }, { 2, 0 }, { 2, 0.8 }, { 1, 0.8 } } })
+			addFan(a, withEdgesDivided(ring, parts));
+		bondAll(a, joint);
+		ASSERT_EQ(a.joints.count(), parts);
+		const Real angle = 1e-6;
+		rotateAbout(a, { 1, 0.4 }, angle, Vec2::Zero(), a.mesh.firstNode[1]);
+		advanceJoints(a, Brittle {});
+		Real moment = 0;
+		for (int i = 0; i < a.joints.count(); ++i)
+			for (int p : { 2 * i, 2 * i + 1 })
+				moment -= a.joints.segments[i].area * a.state.sigma[p] * (contactPosition(a, p).y() - 0.4);
+		const Real edge = 1e9 * 0.7 * std::pow(0.8, 3) / 12;
+		EXPECT_NEAR(moment / angle, edge * (1 + 2. / (parts * parts)), 1e-5 * edge) << parts;
+	}
+}
