@@ -15,7 +15,7 @@ NAME-MODE.png (error over CPU seconds, and its reading), NAME-MODE.md (table and
 Errors are against the laboratory and against a reference of the same specimen: in tension and shear the exact peak (solver=events, which is a point of its
 own as well), in compression a slow run, whose own convergence is shown by one twice as fast (references of other specimens than the usual are half as slow).
 retry=true runs again what failed; jobs=1 keeps processes from slowing each other down, which shows in CPU times. scheduler=HOST:PORT, or a scheduler
-file, has the runs done by a cluster of dask.distributed that is there already.
+file, has the runs done by a cluster of dask.distributed that is there already (scripts/workers.sh; tls=FOLDER: with these certificates).
 """
 import json
 import math
@@ -49,7 +49,7 @@ modelsOf = {
 
 p = scenario.parameters({
 	"mode": "quick", "experiment": "all", "seeds": 5, "jobs": os.cpu_count() or 1, "model": "all", "limit": 1800.0, "retry": False, "scheduler": "",
-	"out": "out/benchmark"
+	"tls": "", "out": "out/benchmark"
 }, {
 	"mode": ("quick", "full", "calibrate"), "experiment": ("all", "tension", "shear", "compression"), "model": ("all", "blocks", *modelsOf["shear"]),
 	"seeds": scenario.atLeastOne, "jobs": scenario.atLeastOne, "limit": scenario.positive
@@ -468,7 +468,7 @@ def interrupt(*_):
 signal.signal(signal.SIGTERM, interrupt)
 signal.signal(signal.SIGINT, interrupt) # also where the shell has it ignored
 plugin = os.environ.get("YADEBLOCKS_PLUGIN", house / "build" / "libyadeblocks.so")
-jobs = Jobs(house, house / p.out, plugin, pluginFree=("spheres", ), limit=p.limit, parallel=p.jobs, retry=p.retry, scheduler=p.scheduler)
+jobs = Jobs(house, house / p.out, plugin, pluginFree=("spheres", ), limit=p.limit, parallel=p.jobs, retry=p.retry, scheduler=p.scheduler, tls=p.tls)
 everything = {} if p.mode == "calibrate" else {
 	experiment: [point for point in points(p.mode, experiment) if p.model in ("all", point.model)] for experiment in experiments
 }

@@ -12,12 +12,13 @@ from yadeblocks import scenario
 
 from .jobs import Job, Jobs
 
-commonKeys = {"seed": 1, "seeds": 5, "jobs": os.cpu_count() or 1, "limit": 1800.0, "retry": False, "scheduler": "", "out": "", "quantities": ""}
+commonKeys = {"seed": 1, "seeds": 5, "jobs": os.cpu_count() or 1, "limit": 1800.0, "retry": False, "scheduler": "", "tls": "", "out": "", "quantities": ""}
 commonRules = {"seed": scenario.notNegative, "seeds": scenario.atLeastOne, "jobs": scenario.atLeastOne, "limit": scenario.positive}
 meanings = {
 	"seed": "first tessellation", "seeds": "tessellations at each point", "jobs": "runs at a time on this machine",
 	"limit": "seconds after which a run is ended", "retry": "run again what failed",
 	"scheduler": "HOST:PORT or scheduler file of a dask.distributed cluster that is there already",
+	"tls": "folder with certificate.pem and key.pem of an encrypted cluster, see scripts/workers.sh",
 	"out": "folder of the results, out/study-KIND-NAME by default", "quantities": "only these, separated by commas"
 }
 
@@ -53,7 +54,7 @@ class Command:
 			raise StudyError(f"study: {self.folder} cannot be made: {error.strerror}") from None
 		self.runs = Jobs(
 			self.house, self.folder, plugin, pluginFree=("spheres", ), limit=self.p.limit, parallel=self.p.jobs, retry=self.p.retry, stream=stream,
-			scheduler=self.p.scheduler, engine=engine
+			scheduler=self.p.scheduler, tls=self.p.tls, engine=engine
 		)
 
 	@property

@@ -3,9 +3,10 @@
 
 	with Engine(parallel=2) as engine:                       # a scheduler and workers of its own, on the loopback address, ended with the block
 		engine.do(tasks, done)                               # done(task, outcome) for each, in the order in which they end
-	Engine(scheduler="node7:8786")                           # or "tls://node7:8786", or the scheduler file that the cluster's workers have met by
+	Engine(scheduler="node7:8786")                           # or the scheduler file that the cluster's workers have met by
+	Engine(scheduler="FOLDER/scheduler.json", tls="FOLDER")  # encrypted, see scripts/workers.sh
 
-A worker runs one task at a time. One that dies loses only its run, which another worker does again; a run of which three workers have died counts as failed.
+A worker runs one task at a time. One that dies loses only its run, which another worker does again; a run with which five workers have died counts as failed.
 """
 import collections
 import os
@@ -18,7 +19,8 @@ from pathlib import Path
 from . import run
 
 patience = 60.0 #: Seconds after which a cluster without workers counts as gone.
-attempts = 3 #: So many workers may die of a run.
+attempts = 5 #: So many workers may die of a run, or while it waits for its turn on them.
+ahead = 2 #: Tasks that each worker has: one that is running and one that waits, since asking for the next one takes time.
 
 
 class EngineError(RuntimeError):
@@ -28,9 +30,9 @@ class EngineError(RuntimeError):
 class Engine:
 	"""parallel: workers of the local cluster; scheduler: address or file of a cluster to be used instead ("": none).
 
-	Addresses that begin with tls:// use the certificates of Dask's own configuration (distributed.comm.tls)."""
-	def __init__(self, parallel=1, scheduler=""):
-		self.parallel, self.scheduler = parallel, scheduler
+	tls: folder with certificate.pem, which all sides share, and key.pem; "": those of Dask's own configuration (distributed.comm.tls), if any."""
+	def __init__(self, parallel=1, scheduler="", tls=""):
+		self.parallel, self.scheduler, self.tls = parallel, scheduler, tls
 		self.cluster = self.client = self.workers = self.kind = None
 
 	def __enter__(self):
@@ -54,10 +56,10 @@ class Engine:
 		_quieten()
 		try:
 			if not self.scheduler: self._startCluster()
-			self.client = Client(**self._address(), timeout=min(30, patience), set_as_default=False)
+			self.client = Client(**self._address(), **self._security(), timeout=min(30, patience), set_as_default=False)
 			self._waitForWorkers()
 			self.kind = None if self.local else self._oneKind()
-		except (OSError, TimeoutError) as error:
+		except (OSError, TimeoutError, TypeError) as error: # TypeError: no certificates for an address that begins with tls://
 			self.close()
 			raise EngineError(f"no scheduler answers at {self.scheduler or 'the loopback address'}: {error}") from None
 		except BaseException:
@@ -87,6 +89,14 @@ class Engine:
 			return {"scheduler_file": self.scheduler}
 		return {"address": self.scheduler}
 
+	def _security(self):
+		if not self.tls: return {}
+		from distributed.security import Security
+		certificate, key = (os.path.join(self.tls, name) for name in ("certificate.pem", "key.pem"))
+		for file in (certificate, key):
+			if not os.access(file, os.R_OK): raise EngineError(f"tls: {file} cannot be read")
+		return {"security": Security(tls_ca_file=certificate, tls_client_cert=certificate, tls_client_key=key, require_encryption=True)}
+
 	def _waitForWorkers(self):
 		where = self.scheduler or "this machine"
 		until = time.monotonic() + patience
@@ -113,7 +123,7 @@ class Engine:
 		try:
 			while waiting or running:
 				slots = self.slots()
-				while waiting and len(running) < max(1, slots): # one for each: a worker that dies must not take others with it
+				while waiting and len(running) < ahead * max(1, slots): # no more, so that neither tasks nor results pile up
 					task = waiting.popleft()
 					future = self.client.submit(run.execute, task, pure=False)
 					running[future.key] = task, future
@@ -177,5 +187,5 @@ class Engine:
 def _quieten():
 	"""Dask's own reports: what matters is said by EngineError."""
 	import logging
-	for name in ("distributed", "distributed.worker", "distributed.scheduler", "distributed.nanny", "distributed.client", "distributed.core", "tornado"):
+	for name in ("distributed", *("distributed." + part for part in ("worker", "scheduler", "nanny", "client", "core")), "tornado", "asyncio"):
 		logging.getLogger(name).setLevel(logging.CRITICAL)

@@ -41,14 +41,14 @@ class Jobs:
 	"""The kept results in `folder`, and a way to get more.
 
 	house: the checkout; plugin: the library that scripts load; pluginFree: scripts whose results do not depend on it;
-	limit: seconds of wall-clock time after which a run counts as failed; parallel: how many at a time on this machine; scheduler: of a cluster to be used
+	limit: seconds of wall-clock time after which a run counts as failed; parallel: how many at a time on this machine; scheduler, tls: of a cluster to be used
 	instead, see Engine. A script is the name of one in scripts/, or the path of one's own.
 	In `with jobs:` the workers stay from one call of `do` to the next."""
-	def __init__(self, house, folder, plugin, pluginFree=(), limit=1800, parallel=1, retry=False, stream=None, scheduler="", engine=None):
+	def __init__(self, house, folder, plugin, pluginFree=(), limit=1800, parallel=1, retry=False, stream=None, scheduler="", tls="", engine=None):
 		self.house, self.folder, self.plugin, self.pluginFree = Path(house), Path(folder).resolve(), Path(plugin).resolve(), pluginFree
 		self.limit, self.parallel, self.retry, self.stream = limit, parallel, retry, stream or sys.stderr
 		self.kept, self.work = self.folder / "runs", self.folder / "work"
-		self.engine, self.stays = engine or Engine(parallel, scheduler), engine is not None
+		self.engine, self.stays = engine or Engine(parallel, scheduler, tls), engine is not None
 		self.code = lru_cache(maxsize=None)(self._code)
 
 	def __enter__(self):

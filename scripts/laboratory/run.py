@@ -129,9 +129,12 @@ def yadeVersion():
 
 
 def processor():
-	with open("/proc/cpuinfo") as file:
-		lines = file.read().splitlines()
-	return next((line.partition(":")[2].strip() for line in lines if line.startswith("model name")), platform.machine())
+	known = _kept("processor", list)
+	if not known:
+		with open("/proc/cpuinfo") as file:
+			lines = file.read().splitlines()
+		known.append(next((line.partition(":")[2].strip() for line in lines if line.startswith("model name")), platform.machine()))
+	return known[0]
 
 
 def _lastLine(log):

@@ -1,6 +1,8 @@
 # yade-blocks, GPL-2.0-or-later
 """The engine of many runs, with workers that are really there: what dies, what takes too long, what is not there. Runs are small shell scripts."""
 import os
+import signal
+import subprocess
 import sys
 import threading
 import time
@@ -114,6 +116,29 @@ def test_noWorker(monkeypatch):
 	with LocalCluster(n_workers=0, host="127.0.0.1", dashboard_address="127.0.0.1:0") as empty:
 		with pytest.raises(engine.EngineError, match="no worker of tcp://127.0.0.1:.* has appeared within 1 s"):
 			engine.Engine(scheduler=empty.scheduler_address).start()
+
+
+def test_encryptedCluster(tmp_path):
+	"""scripts/workers.sh without Slurm: who has the certificate gets in, who has none or another does not."""
+	script, folder = package.parents[1] / "scripts/workers.sh", tmp_path / "cluster"
+	with open(tmp_path / "log", "w") as log:
+		started = subprocess.Popen([script, folder], env={**os.environ, "BLOCKS_HOST": "127.0.0.1"}, stdout=log, stderr=log, start_new_session=True)
+	try:
+		until = time.monotonic() + 60
+		while not (folder / "scheduler.json").exists() and time.monotonic() < until:
+			time.sleep(0.1)
+		assert oct((folder / "key.pem").stat().st_mode)[-3:] == "600"
+		where = str(folder / "scheduler.json")
+		with engine.Engine(scheduler=where, tls=str(folder)) as user:
+			assert user.client.scheduler.address.startswith("tls://127.0.0.1")
+			assert "result" in outcomes(user, task("result"))[0]
+		with pytest.raises(engine.EngineError, match="no scheduler answers"):
+			engine.Engine(scheduler=where).start()
+		with pytest.raises(engine.EngineError, match="tls: .* cannot be read"):
+			engine.Engine(scheduler=where, tls=str(tmp_path)).start()
+	finally:
+		os.killpg(started.pid, signal.SIGTERM)
+		started.wait()
 
 
 def house(tmp_path):

@@ -7,6 +7,7 @@ import json
 import math
 import os
 import shutil
+import signal
 import stat
 import subprocess
 import sys
@@ -130,18 +131,20 @@ def test_sameSettingsSameKey():
 # ---- runs
 
 imitation = """#!/usr/bin/python3
-import json, os, pathlib, sys
+import json, os, pathlib, sys, time
 if '--version' in sys.argv: sys.exit(print('YADE ' + os.environ.get('FAKE', '1')))
 words = dict(word.split('=', 1) for word in sys.argv if '=' in word)
 with open(os.environ['CALLS'], 'a') as calls: calls.write(' '.join(sys.argv[4:]) + chr(10))
 if 'refuse' in words: sys.exit('mine.refuse must not be given')
 if 'silent' in words: sys.exit()
+while int(words['seed']) > 2 and os.path.exists(os.environ['CALLS'] + '.slow'): time.sleep(0.05)
 folder = pathlib.Path('out/' + pathlib.Path(sys.argv[4]).stem + '-' + words['tag'])
 folder.mkdir(parents=True)
 stress = float(words.get('strength', '0.35'))
 rows = ['seed,displacement_mm,stress_MPa'] + ['1,%g,%g' % (i / 1e4, stress * i / 100) for i in range(101)]
 (folder / 'curve.csv').write_text(chr(10).join(rows))
-(folder / 'result.json').write_text(json.dumps({'quantities': [], 'cost': {'cpu_s': 1.5, 'steps': 7}, 'quality': {}}))
+peak = {'name': 'peak', 'measured': stress, 'unit': 'MPa', 'expected': None}
+(folder / 'result.json').write_text(json.dumps({'quantities': [peak], 'cost': {'cpu_s': 1.5, 'steps': 7}, 'quality': {}}))
 """
 
 
@@ -260,6 +263,32 @@ def test_oneAtATime(house):
 	with first._claimed(), pytest.raises(RuntimeError, match="another benchmark is running"):
 		started(house).do([job._replace(seed=2)])
 	started(house).do([job._replace(seed=2)]) # it is free again
+
+
+# ---- studies, as the user starts them
+
+
+def test_studyGoesOnWhereItWasInterrupted(study5, house):
+	(house / "calls.slow").touch()
+	words = "ensemble", "tension", "strength=0.3", "seeds=4"
+	first = study5.study(*words)
+	results = house / "out/study-ensemble-tension/runs"
+	while len(list(results.glob("*.json"))) < 2 or calls(house) < 4:
+		assert first.poll() is None, first.stderr.read()
+	first.send_signal(signal.SIGINT)
+	assert "interrupted: what is complete is kept" in first.communicate(timeout=60)[1] and first.returncode == 130
+	(house / "calls.slow").unlink()
+	again = study5.study(*words)
+	out, progress = again.communicate(timeout=60)
+	assert again.returncode == 0, progress
+	assert "| tension | peak | MPa | 4 | 0.3 |" in out and "2/2  0:00 left" in progress and calls(house) == 6 # two of four were interrupted
+	found = json.loads((house / "out/study-ensemble-tension/study.json").read_text())
+	assert found["settings"] == {"strength": 0.3, "vtk": False} and found["points"][0]["quantities"]["peak"]["n"] == 4
+	refused = study5.study("ensemble", "tension", "refuse=1", "seeds=2")
+	assert refused.communicate(timeout=60)[1].splitlines()[-1] == "study: every run failed: exit code 1: mine.refuse must not be given"
+	assert refused.returncode == 1
+	unknown = study5.study("ensemble", "wood")
+	assert unknown.communicate(timeout=60)[1] == "study: there is no scenario wood\n" and unknown.returncode == 1
 
 
 # ---- errors and fronts
@@ -460,7 +489,14 @@ def study5(house):
 			command, env={**os.environ, "YADEBLOCKS_PLUGIN": str(house / "plugin.so")}, capture_output=True, text=True, check=True
 		).stdout
 
-	benchmark.file = lambda name: house / name
+	def study(*words, **more):
+		cluster.start()
+		command = [sys.executable, "-m", "laboratory", *words, f"scheduler={cluster.cluster.scheduler_address}"]
+		paths = os.pathsep.join([str(house / "scripts"), str(house / "py"), os.environ["PYTHONPATH"]])
+		environment = {**os.environ, "YADEBLOCKS_PLUGIN": str(house / "plugin.so"), "PYTHONPATH": paths}
+		return subprocess.Popen(command, cwd=house, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+	benchmark.file, benchmark.study = lambda name: house / name, study
 	cluster = engine.Engine(2) # its workers find the imitation of YADE
 	yield benchmark
 	cluster.close()

@@ -76,19 +76,19 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 		turnover += g.workTurnover;
 	for (const RigidBlock& r : a.state.rigid)
 		turnover += r.workTurnover;
-	const Real loads = loadWork(a), swinging = zoneEnergy(a) + jointEnergy(a) + kineticEnergy(a), energy = swinging + kineticChange(a, time, dt);
+	const Real work = loadWork(a), swinging = zoneEnergy(a) + jointEnergy(a) + kineticEnergy(a), energy = swinging + kineticChange(a, time, dt);
 	if (!begun) {
 		roundingEnergy = 0;
 		for (int block = 0; block < a.blockCount(); ++block)
 			for (int z = a.mesh.firstZone[block]; z < a.mesh.firstZone[block + 1]; ++z)
 				roundingEnergy += a.mesh.materials[a.mesh.blockMaterial[block]].young * a.mesh.zoneVolume[z] * roundingStrain * roundingStrain;
-		baseline = energy - groupWork(a) - rigidWork(a) - loads;
+		baseline = energy - groupWork(a) - rigidWork(a) - work;
 		begun    = true;
 		compared = step;
 	}
-	if (loadsChanged(a)) baseline = energy - groupWork(a) - rigidWork(a) - loads - lastExcess; // no work since the last look is known to be theirs
-	const Real excess  = energy - groupWork(a) - rigidWork(a) - loads - baseline;
-	const Real scale   = std::abs(baseline) + turnover + std::abs(loads) + roundingEnergy;
+	if (loadsChanged(a)) baseline = energy - groupWork(a) - rigidWork(a) - work - lastExcess; // no work since the last look is known to be theirs
+	const Real excess  = energy - groupWork(a) - rigidWork(a) - work - baseline;
+	const Real scale   = std::abs(baseline) + turnover + std::abs(work) + roundingEnergy;
 	const bool compare = step - compared >= leastInterval;
 	const bool grows   = compare && excess > tolerance * scale && lastExcess > tolerance * scale && excess > growth * lastExcess;
 	if (grows || swinging > swing * (std::max(energy, Real(0)) + scale)) {
