@@ -153,7 +153,7 @@ def points(mode, experiment):
 
 
 def blockPoints(mode, case, lines):
-	experiment, base = case.split()[0], {"vtk": False, **stressOf(case)}
+	experiment, base = case.split()[0], {"vtk": False, "sheets": False, **stressOf(case)}
 	solver = {"solver": "events"} if experiment in exact else {}
 	reference = lambda specimen: {**base, **specimen, **solver, "steps": slow[mode][experiment] // (2 if specimen else 1)}
 	specimens = []

@@ -25,12 +25,13 @@ import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
 from yadeblocks.engines import loopList
-from yadeblocks.export import State, writeStates
+from yadeblocks.export import writeFilm
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
+from yadeblocks.snapshot import Film, Snapshot
 from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -48,7 +49,8 @@ common = scenario.commonParameters(sizeMeaning='edge', lloyd=3, steps=30000, alp
 del common['size']
 p = scenario.parameters({
 	**common, **scenario.usualParameters(
-		units='voronoi', cells='voronoi', edgeSegments=1, stroke=3.6e-3, solver='steps', jump=True, servo=False, merge=0.1, halfRate=False, vtk=True
+		units='voronoi', cells='voronoi', edgeSegments=1, stroke=3.6e-3, solver='steps', jump=True, servo=False, merge=0.1, halfRate=False, vtk=True, frames=10,
+		sheets=True
 	), 'unitSize': Key(
 		0.01, 'size of the Voronoi cells of bricks, or of the zones of plain ones', 'm',
 		(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick')
@@ -110,18 +112,20 @@ def crush(stage, seed, steps):
 	floor, cracks = 1e-3 * mortarJoint['tension'] * area, Cracks(model)
 	stop = loading.Stop(drop=last, displacement=p.stroke)
 	wider = Gauge(model, left, right, 'x')
+	film = Film(model, p.frames if p.vtk else 0)
 	record = Recorder(
 		strain=lambda: -model.groupTravelled('platen') / height, stress=lambda: -model.groupForce('platen') / area, lateral=lambda: wider() / p.width,
 		broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=floor)
 	)
 	with Progress(steps, lambda: loadingLine(record.last.strain * height, record.last.stress, model), label=stage.label) as progress:
+		record.after(lambda row: film.look(-model.groupTravelled('platen') / p.stroke, row.stress, O.time))
 		record.after(lambda row: cracks.noteStress(row.stress))
 		record.after(lambda row: progress(int(-steps * model.groupTravelled('platen') / p.stroke)))
 		record.after(lambda row: stop(-model.groupTravelled('platen'), row.stress, row.broken))
 		stage.keep(record=record, cracks=cracks, stop=stop)
 		if not stage.model: begin(model, steps, floor, record, wider, cracks, stage.label)
 		stage.run()
-	return model, record, cracks
+	return model, record, cracks, film
 
 
 def begin(model, steps, floor, record, wider, cracks, label):
@@ -156,7 +160,7 @@ with Session(p) as session:
 			with session.run(seed) as run:
 				stage = session.stage('seed %d' % seed)
 				with run.stepping():
-					model, record, cracks = crush(stage, seed, p.steps)
+					model, record, cracks, film = crush(stage, seed, p.steps)
 				strain, stress, lateral, broken = (record[name] for name in ('strain', 'stress', 'lateral', 'broken'))
 				strength, peak = curves.peak(strain, stress)
 				elastic = (stress > 0.05 * strength) & (stress < 0.33 * strength) & (np.arange(len(stress)) < peak)
@@ -189,7 +193,8 @@ with Session(p) as session:
 				run.quality(unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max())
 			if seed == p.seed:
 				session.picture('cracks.png', pictures.drawCracks, model, title='Prism in compression, seed %d' % seed)
-				if p.vtk: session.later(writeStates, p.folder, State(model, O.time))
+				if p.sheets: pictures.drawSheets(session, film, model, 'Prism in compression, seed %d' % seed)
+				if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
 		if p.halfRate and session.wants(seed, 'half_rate_change'):
 			slow = crush(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]
 			strength = curves.peak(slow['strain'], slow['stress'])[0] / 1e6

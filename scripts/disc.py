@@ -14,7 +14,7 @@ import numpy as np
 
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import loading, pictures, scenario
+from yadeblocks import loading, pictures, picturesfields, scenario
 from yadeblocks.engines import loopList
 from yadeblocks.export import State, writeStates
 from yadeblocks.recording import Recorder
@@ -85,5 +85,7 @@ with Session(p) as session:
 		run.quality(unbalanced_ratio_max=record['unbalanced'][-1])
 	session.write()
 	session.picture('cracks.png', pictures.drawCracks, model, title='Disc under %g kN' % (p.force / 1e3))
+	session.picture('stress.png', picturesfields.drawField, model, 'sxx', title='stress across the load')
+	session.picture('crosses.png', picturesfields.drawCrosses, model)
 	if p.vtk: session.later(writeStates, p.folder, State(model, O.time))
 scenario.waitIfBatch()

@@ -6,8 +6,8 @@ period. True masses, no damping, general contact.
 
 	scripts/run.sh rocking [tilt=0.5] [key=value ...]        some seconds
 
-Expected: T/4 = acosh(1 / (1 - tilt)) / p, with tilt by the slenderness angle atan(b / h), p = sqrt(3 g / (4 R)) of a rectangle with half diagonal R, for slender
-blocks (small angles). The exact pendulum, integrated numerically, is given beside it.
+Expected for small angles: T/4 = acosh(1 / (1 - tilt)) / p, with tilt by the slenderness angle atan(b / h) and p = sqrt(3 g / (4 R)) of a rectangle with half
+diagonal R. The exact pendulum, integrated numerically, stands beside it.
 """
 from math import acosh, atan2, cos, hypot, sin, sqrt
 

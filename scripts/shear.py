@@ -29,12 +29,13 @@ import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
 from yadeblocks.engines import loopList
-from yadeblocks.export import State, writeStates
+from yadeblocks.export import writeFilm
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
+from yadeblocks.snapshot import Film, Snapshot
 from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -61,7 +62,9 @@ pressSteps = 2000
 
 p = scenario.parameters({
 	**scenario.commonParameters(sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2), **scenario.usualParameters(
-		sigma=0.5e6, stroke=1e-3, approach=0.2, solver='steps', jump=True, servo=False, units='plain', cells='voronoi', edgeSegments=1, brickZone=8e-3, merge=0.1, halfRate=False, vtk=True
+		sigma=0.5e6, stroke=1e-3, approach=0.2, solver='steps', jump=True, servo=False, units='plain', cells='voronoi', edgeSegments=1,
+		brickZone=8e-3, merge=0.1, halfRate=False, vtk=True, frames=10,
+		sheets=True
 	), 'afterPeak': Key(True, 'go on behind the peak, to the residual stress'),
 	'size': Key(3.5e-3, 'size of the Voronoi cells', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer')),
 	'joints': Key('paper', 'brittle joints of Table 5, or joints that soften',
@@ -113,6 +116,7 @@ def shear(stage, seed, steps):
 	below, above = nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit')
 	floor, cracks = 1e-3 * max(p.sigma, joint['tension']) * area, Cracks(model)
 	slip, uplift = Gauge(model, below, above, 'x'), Gauge(model, below, above, 'y')
+	film = Film(model, p.frames if p.vtk else 0)
 	record = Recorder(
 		displacement=slip, stress=lambda: model.groupForce('shear') / area, uplift=uplift, broken=cracks.look,
 		yielded=lambda: np.count_nonzero(model.pointStatus), unbalanced=lambda: model.unbalancedRatio(floor=floor)
@@ -121,6 +125,7 @@ def shear(stage, seed, steps):
 	approach = None if p.servo else loading.Approach(model, 'shear', p.approach) # one of them sets the speed
 	stop = loading.Stop(displacement=p.stroke)
 	with Progress(steps, lambda: loadingLine(record.last.displacement, record.last.stress, model), label=stage.label) as progress:
+		record.after(lambda row: film.look(model.groupTravelled('shear') / p.stroke, row.stress, O.time))
 		if approach: record.after(lambda row: approach(row.stress, row.yielded))
 		record.after(lambda row: stop(model.groupTravelled('shear'), row.stress, row.broken))
 		record.after(lambda row: progress(int(steps * model.groupTravelled('shear') / p.stroke)))
@@ -134,14 +139,15 @@ def shear(stage, seed, steps):
 					broken=path['cracked'][up], yielded=path['cracked'][up], unbalanced=path['residual']
 				)
 				cracks.began(path['crackPoint'])
-				if not p.afterPeak: return model, record, cracks
+				film.look(1, record.last.stress, O.time)
+				if not p.afterPeak: return model, record, cracks, film
 			record()
 			if p.solver == 'steps' and p.jump:
 				model.elasticJump()
 				record()
 			O.engines += [record.engine(max(1, min(50, steps // 400)))]
 		stage.run()
-	return model, record, cracks
+	return model, record, cracks, film
 
 
 def press(model, dt, floor):
@@ -164,7 +170,7 @@ with Session(p) as session:
 			with session.run(seed) as run:
 				stage = session.stage('seed %d' % seed)
 				with run.stepping():
-					model, record, cracks = shear(stage, seed, p.steps)
+					model, record, cracks, film = shear(stage, seed, p.steps)
 				displacement, stress, uplift, broken = (record[name] for name in ('displacement', 'stress', 'uplift', 'broken'))
 				strength, peak = curves.peak(displacement, stress)
 				run.add('peak_shear_stress', 'MPa', strength / 1e6, *peakExpected)
@@ -185,7 +191,8 @@ with Session(p) as session:
 			if seed == p.seed:
 				title = 'Couplet in shear, precompression %g N/mm², seed %d' % (p.sigma / 1e6, seed)
 				session.picture('cracks.png', pictures.drawCracks, model, title=title)
-				if p.vtk: session.later(writeStates, p.folder, State(model, O.time))
+				if p.sheets: pictures.drawSheets(session, film, model, title)
+				if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
 		if p.halfRate and session.wants(seed, 'half_rate_change'):
 			slow = shear(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]
 			strength = curves.peak(slow['displacement'], slow['stress'])[0] / 1e6

@@ -35,12 +35,13 @@ import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
 from yadeblocks.engines import loopList
-from yadeblocks.export import State, writeStates
+from yadeblocks.export import writeFilm
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
+from yadeblocks.snapshot import Film, Snapshot
 from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -64,7 +65,8 @@ stroke, velocity, faster = 0.03e-3, 0.02e-3, 10 # [m], [m/s]; so many times as f
 
 p = scenario.parameters({
 	**scenario.commonParameters(lloyd=0, alpha=0.8, steps=40000), **scenario.usualParameters(
-		units='plain', cells='voronoi', edgeSegments=1, brickZone=8e-3, merge=0.2, solver='steps', jump=True, servo=False, halfRate=False, vtk=True
+		units='plain', cells='voronoi', edgeSegments=1, brickZone=8e-3, merge=0.2, solver='steps', jump=True, servo=False, halfRate=False, vtk=True, frames=10,
+		sheets=True
 	), 'size': Key(0.0, 'size of the Voronoi cells; 0: of the case', 'm', (lambda s: 0 <= s < mortarHeight, 'must be smaller than the mortar layer')),
 	'case': Key('TT2', 'properties of brittle joints, see above',
 			rule=tuple(cases)), 'joints': Key('paper', 'brittle joints of the case, or joints that soften', rule=('paper', *softeningSets)),
@@ -116,10 +118,12 @@ def pull(stage, seed, steps):
 	)
 	floor, cracks = 1e-3 * unitJoint['tension'] * area, Cracks(model)
 	stop = loading.Stop(drop=0.01, displacement=30 * stroke) if softens else loading.Stop(drop=0.5, displacement=2 * stroke)
+	film = Film(model, p.frames if p.vtk else 0)
 	record = Recorder(
 		displacement=gauge, stress=lambda: model.groupForce('top') / area, broken=cracks.look, yielded=lambda: np.count_nonzero(model.pointStatus),
 		unbalanced=lambda: model.unbalancedRatio(floor=floor)
 	)
+	record.after(lambda row: film.look(model.groupTravelled('top') / stroke, row.stress, O.time))
 	with Progress(steps, lambda: loadingLine(record.last.displacement, record.last.stress, model), label=stage.label) as progress:
 		record.after(lambda row: progress(O.iter)).after(lambda row: stop(model.groupTravelled('top'), row.stress, row.broken))
 		if p.solver == 'events':
@@ -129,14 +133,15 @@ def pull(stage, seed, steps):
 				unbalanced=path['residual']
 			)
 			cracks.began(path['crackPoint'])
-			return model, record, cracks
+			film.look(1, 0, O.time)
+			return model, record, cracks, film
 		if not stage.model: begin(model, steps, floor)
 		approach = loading.Approach(model, 'top', 1 / faster) if softens and not p.servo else None # one of them sets the speed
 		if approach: record.after(lambda row: approach(row.stress, row.yielded))
 		stage.keep(record=record, cracks=cracks, approach=approach, stop=stop)
 		if not stage.model: leap(model, steps, record)
 		stage.run()
-	return model, record, cracks
+	return model, record, cracks, film
 
 
 def begin(model, steps, floor):
@@ -180,7 +185,7 @@ with Session(p) as session:
 			with session.run(seed) as run:
 				stage = session.stage('seed %d' % seed)
 				with run.stepping():
-					model, record, cracks = pull(stage, seed, p.steps)
+					model, record, cracks, film = pull(stage, seed, p.steps)
 				displacement, stress, broken, yielded = (record[name] for name in ('displacement', 'stress', 'broken', 'yielded'))
 				strength, peak = curves.peak(displacement, stress)
 				if p.solver == 'events': elastic = np.arange(len(stress)) <= np.argmax(broken > 0) # the first to break is still whole there
@@ -198,7 +203,8 @@ with Session(p) as session:
 				run.quality(unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max())
 			if seed == p.seed:
 				session.picture('cracks.png', pictures.drawCracks, model, title='%s, seed %d' % (title, seed))
-				if p.vtk: session.later(writeStates, p.folder, State(model, 0, untouched=True), State(model, O.time))
+				if p.sheets: pictures.drawSheets(session, film, model, '%s, seed %d' % (title, seed))
+				if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
 		if p.halfRate and session.wants(seed, 'half_rate_change'):
 			slow = pull(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]
 			strength = curves.peak(slow['displacement'], slow['stress'])[0] / 1e6

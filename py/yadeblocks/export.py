@@ -10,6 +10,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from . import files
+from .snapshot import poissonOf
 
 
 def pairName(model, first, second):
@@ -53,6 +54,28 @@ def principalStresses(stress):
 	return np.column_stack([mean + radius, mean - radius])
 
 
+def jointMotion(model):
+	"""Opening and slip of every contact point, from where the blocks are now [m]: also of joints that have become free contacts, whose columns rest."""
+	ends = np.asarray(model.position)[np.asarray(model.segmentNodes)]
+	t = np.asarray(model.segmentParameters)
+	host = lambda side: np.stack([(1 - t[:, i, None]) * ends[:, 2 * side] + t[:, i, None] * ends[:, 2 * side + 1]
+					for i in (2 * side, 2 * side + 1)], axis=1)
+	apart, normal = (host(1) - host(0)).reshape(-1, 2), np.repeat(model.normal, 2, axis=0)
+	return (apart * normal).sum(axis=1), apart[:, 1] * normal[:, 0] - apart[:, 0] * normal[:, 1]
+
+
+def outOfPlaneStress(model, stress):
+	"""szz of every zone [Pa]: nu (sxx + syy) in plane strain, 0 in plane stress. stress: (Z, 3) of sxx, syy, sxy."""
+	if model.planeStress: return np.zeros(len(stress))
+	return np.repeat(np.asarray(poissonOf(model))[model.blockMaterial], np.diff(model.firstZone)) * (stress[:, 0] + stress[:, 1])
+
+
+def vonMises(stress, szz):
+	"""Equivalent stress of von Mises, in the unit of `stress`, (Z, 3) of sxx, syy, sxy."""
+	sxx, syy, sxy = np.asarray(stress).T
+	return np.sqrt(((sxx - syy)**2 + (syy - szz)**2 + (szz - sxx)**2) / 2 + 3 * sxy**2)
+
+
 class State:
 	"""What BlocksExport writes of a model at a time [s]: copied, so that it can be written later, whatever has become of the model.
 
@@ -66,9 +89,9 @@ class BlocksExport:
 	"""Two collections for ParaView in `folder`, begun anew: blocks.pvd (zones; rigid blocks as triangles between their corners) and joints.pvd
 	(a line for every contact point, its half of the segment), each with a compressed .vtu file per step.
 
-	Zones: block, material (number in O.materials' order), stresses sxx, syy, sxy and principal stresses s1, s2 [Pa]; grid points:
-	displacement [m], velocity [m/s]; joints: firstBlock, secondBlock, opening [m], slip [m], sigma [Pa], tau [Pa], status (0 intact,
-	1 broken in tension, 2 in shear, 3 never bonded, 4 softening), damage (0 whole to 1, only residual strength is left)."""
+	Zones: block, material (number in O.materials' order), stresses sxx, syy, sxy, szz, principal stresses s1, s2 in the plane and vonMises [Pa]; grid points:
+	displacement [m], velocity [m/s]; joints: firstBlock, secondBlock, normal (out of the first block), area [m2], opening [m], slip [m], sigma [Pa], tau [Pa],
+	status (0 intact, 1 broken in tension, 2 in shear, 3 never bonded, 4 softening) and damage (0 whole to 1, only residual strength is left)."""
 	def __init__(self, folder):
 		self.folder = Path(folder)
 		self.folder.mkdir(parents=True, exist_ok=True)
@@ -98,6 +121,12 @@ def writeStates(folder, *states):
 		export.add(state)
 
 
+def writeFilm(folder, film, end):
+	"""The model untouched, the frames and the peak of a Film, and the Snapshot `end`, each once."""
+	states = [snapshot for snapshot in film.states() if snapshot.time < end.time]
+	writeStates(folder, State(end, 0, untouched=True), *(State(snapshot, snapshot.time) for snapshot in states if snapshot.time > 0), State(end, end.time))
+
+
 def _zones(model, untouched):
 	"""Arguments of _writeGrid."""
 	rigid = np.flatnonzero(np.diff(model.firstZone) == 0)
@@ -109,7 +138,9 @@ def _zones(model, untouched):
 	position = model.reference if untouched else model.position
 	displacement, velocity = _spatial(position - model.reference), _spatial(there * model.velocity)
 	cells = {"block": blocks, "material": np.asarray(model.blockMaterial, np.int32)[blocks], **dict(zip(("sxx", "syy", "sxy"), stress.T))}
-	cells.update(zip(("s1", "s2"), principalStresses(stress).T))
+	szz = np.zeros(len(blocks))
+	szz[:len(model.zoneNodes)] = outOfPlaneStress(model, stress[:len(model.zoneNodes)])
+	cells.update(zip(("s1", "s2"), principalStresses(stress).T), szz=szz, vonMises=vonMises(stress, szz))
 	return np.array(position), "triangle", np.concatenate(triangles), {"displacement": displacement, "velocity": velocity}, cells
 
 
@@ -117,7 +148,10 @@ def _joints(model, untouched):
 	"""Arguments of _writeGrid."""
 	lines = contactLines(model, model.reference if untouched else model.position)
 	first, second = np.repeat(np.asarray(model.segmentBlocks, np.int32), 2, axis=0).T
-	cells = {"firstBlock": first, "secondBlock": second}
+	cells = {
+		"firstBlock": first, "secondBlock": second, "normal": _spatial(np.repeat(model.normal, 2, axis=0)),
+		"area": np.repeat(np.asarray(model.segmentArea), 2)
+	}
 	for name in ("opening", "slip", "sigma", "tau", "damage"):
 		values = np.array(getattr(model, "point" + name.capitalize()))
 		cells[name] = np.zeros_like(values) if untouched else values
@@ -132,11 +166,34 @@ def _spatial(vectors):
 
 
 def _writeGrid(path, points, kind, cells, pointData, cellData):
-	"""A compressed .vtu file of equal cells, (m, corners) point indices."""
+	"""A compressed .vtu file of equal cells, (m, corners) point indices; of no cells one that can be read all the same."""
 	from meshio import Mesh, vtu # not VTK: ParaView's Python and YADE's VTK cannot live in one process
 	plain = lambda values: np.array(values, order="C") # meshio takes bytes as they lie
 	pointData = {name: plain(values) for name, values in pointData.items()}
+	if not len(cells): return _writeNothing(path, pointData, {name: plain(values) for name, values in cellData.items()})
 	vtu.write(path, Mesh(_spatial(points), [(kind, plain(cells))], pointData, {name: [plain(values)] for name, values in cellData.items()}))
+
+
+def _writeNothing(path, pointData, cellData):
+	"""A .vtu file with the same arrays and no cell, which meshio cannot write."""
+	root = ElementTree.Element("VTKFile", type="UnstructuredGrid", version="0.1")
+	piece = ElementTree.SubElement(ElementTree.SubElement(root, "UnstructuredGrid"), "Piece", NumberOfPoints="0", NumberOfCells="0")
+	kinds = {"f": "Float", "i": "Int", "u": "UInt"}
+
+	def array(parent, name, values):
+		components = str(values.shape[1] if values.ndim > 1 else 1)
+		kind = kinds[values.dtype.kind] + str(8 * values.dtype.itemsize)
+		ElementTree.SubElement(parent, "DataArray", type=kind, Name=name, NumberOfComponents=components, format="ascii")
+
+	array(ElementTree.SubElement(piece, "Points"), "Points", np.zeros((0, 3)))
+	connections = ElementTree.SubElement(piece, "Cells")
+	for name, kind in (("connectivity", np.int64), ("offsets", np.int64), ("types", np.uint8)):
+		array(connections, name, np.zeros(0, kind))
+	for tag, arrays in (("PointData", pointData), ("CellData", cellData)):
+		parent = ElementTree.SubElement(piece, tag)
+		for name, values in arrays.items():
+			array(parent, name, values)
+	path.write_bytes(ElementTree.tostring(root, encoding="utf-8", xml_declaration=True))
 
 
 def _writeCollection(folder, name, times):

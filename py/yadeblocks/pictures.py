@@ -89,6 +89,13 @@ def drawCracks(path, model, magnification=None, window=None, title=""):
 	return path
 
 
+def drawSheets(session, film, model, title):
+	"""sheet-peak.png and sheet-end.png of a Session: picturesfields.drawSheet of a Film's peak and of the model as it is now."""
+	from .picturesfields import drawSheet
+	if film.peak: session.picture("sheet-peak.png", drawSheet, film.peak, title=title + ", at the peak")
+	session.picture("sheet-end.png", drawSheet, model, title=title + ", at the end")
+
+
 @contextmanager
 def _picture(path, width, height):
 	"""A matplotlib figure of this size [inch], saved at the end to a path or a binary file; off pyplot, which belongs to YADE's own plots."""
@@ -195,16 +202,16 @@ def _chains(lines, ends):
 	return chains
 
 
-def _drawScale(axes, magnification):
-	"""Below the specimen: a bar of a round length and what was done to the displacements."""
+def _drawScale(axes, magnification, drop=9):
+	"""So many points below the specimen: a bar of a round length and what was done to the displacements."""
 	from matplotlib.transforms import ScaledTranslation, blended_transform_factory
 	left, right = axes.get_xlim()
 	width = right - left
 	length = _roundDown(width / 5)
-	below = blended_transform_factory(axes.transData, axes.transAxes) + ScaledTranslation(0, -9 * _point, axes.figure.dpi_scale_trans)
+	below = blended_transform_factory(axes.transData, axes.transAxes) + ScaledTranslation(0, -drop * _point, axes.figure.dpi_scale_trans)
 	left, right = left + 0.015 * width, right - 0.015 * width
 	axes.plot([left, left + length], [0, 0], transform=below, color=_black, linewidth=1.5, solid_capstyle="butt", clip_on=False)
-	axes.text(left + length + 0.015 * width, 0, f"{1e3 * length:g} mm", transform=below, va="center")
+	axes.text(left + length + 0.015 * width, 0, f"{length:g} m" if length >= 1 else f"{1e3 * length:g} mm", transform=below, va="center")
 	note = "displacements to scale" if magnification == 1 else f"displacements × {magnification:g}"
 	axes.text(right, 0, note, transform=below, va="center", ha="right")
 

@@ -66,6 +66,8 @@ _usual = {
 	"servo": Key(False, "the unbalanced force sets the speed of loading"),
 	"halfRate": Key(False, "repeat each run at half the loading rate and report the change"),
 	"vtk": Key(True, "write files for ParaView"),
+	"frames": Key(10, "frames of the loading in the files for ParaView, besides those at the peak and at the end", rule=notNegative),
+	"sheets": Key(True, "draw sheets of displacements, stresses and joints at the peak and at the end"),
 	"pressSteps": Key(2000, "time steps in which the precompression comes on", rule=atLeastOne),
 	"approach": Key(0.2, "speed up to the peak by that after it", rule=(lambda f: 0 < f <= 1, "must lie in (0, 1]")),
 	"sigma": Key(0.5e6, "precompression", "Pa", notNegative),
@@ -82,8 +84,8 @@ def commonParameters(**defaults):
 
 
 def usualParameters(**defaults):
-	"""Keys that more than one scenario has, with these defaults: `units cells edgeSegments solver brickZone merge jump servo halfRate vtk pressSteps approach sigma stroke`
-	and all the common ones.
+	"""Keys that more than one scenario has, with these defaults: `units cells edgeSegments solver brickZone merge jump servo
+	halfRate vtk frames sheets pressSteps approach sigma stroke` and all the common ones.
 
 	Raises TypeError for a name that is none of them."""
 	return _chosen({**_common, **_usual}, "that several scenarios have", defaults)

@@ -18,7 +18,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from yadeblocks import export, pictures, progress, results, scenario
+from yadeblocks import export, pictures, progress, results, scenario, snapshot
 
 package = Path(results.__file__).parent
 
@@ -33,16 +33,17 @@ def column():
 	position[4:] += (1e-6, 2e-6) # unit and platen have moved away from the mortar
 	stress = np.array([(5., 1., 0.), (1., 2., 3.), (0., 0., 0.), (-4., -4., 0.)])
 	return SimpleNamespace(
-		thickness=0.05, reference=reference, position=position, velocity=np.full((12, 2),
-												(0.1, 0.2)), zoneNodes=zones, firstNode=np.array([0, 4, 8, 12]),
-		firstZone=np.array([0, 2, 4, 4]), firstEdge=np.array([0, 4, 8, 12]), blockMaterial=np.array([0, 1, 2], np.int32), materialLabels=[
-			"mortar", "unit", "platen"
-		], edgeNodes=edges, segmentNodes=np.array([(2, 3, 4, 5), (6, 7, 8, 9)], np.int32), segmentBlocks=np.array([(0, 1), (1, 2)], np.int32),
-		segmentParameters=np.array([(0., 1., 1., 0.), (0., 1 / 3, 1., 2 / 3)]), segmentArea=np.array([75e-6, 25e-6]), pointOpening=np.array([
-			1., 2., 3., 4.
-		]), pointSlip=np.array([5., 6., 7., 8.]), pointSigma=np.array([9., 10., 11., 12.]), pointTau=np.array([13., 14., 15., 16.]),
-		pointStatus=np.array([1, 2, 3, 3], np.uint8), pointDamage=np.array([1., 1., 0., 0.]), zoneStress=lambda: stress,
-		cornerTriangles={2: np.array([(8, 9, 10), (8, 10, 11)], np.int32)}.get
+		thickness=0.05, reference=reference, position=position, velocity=np.full((12, 2), (0.1, 0.2)), zoneNodes=zones, firstNode=np.array([
+			0, 4, 8, 12
+		]), firstZone=np.array([0, 2, 4, 4]), firstEdge=np.array([0, 4, 8, 12]), blockMaterial=np.array([0, 1, 2], np.int32),
+		materialLabels=["mortar", "unit", "platen"], edgeNodes=edges, segmentNodes=np.array([(2, 3, 4, 5), (6, 7, 8, 9)], np.int32),
+		segmentBlocks=np.array([(0, 1), (1, 2)], np.int32), segmentParameters=np.array([(0., 1., 1., 0.), (0., 1 / 3, 1., 2 / 3)]),
+		segmentArea=np.array([75e-6, 25e-6]), pointOpening=np.array([1., 2., 3., 4.]), pointSlip=np.array([5., 6., 7., 8.]), pointSigma=np.array([
+			9., 10., 11., 12.
+		]), pointTau=np.array([13., 14., 15., 16.]), pointStatus=np.array([1, 2, 3, 3], np.uint8),
+		pointDamage=np.array([1., 1., 0., 0.]), zoneStress=lambda: stress, cornerTriangles={
+			2: np.array([(8, 9, 10), (8, 10, 11)], np.int32)
+		}.get, planeStress=False, poisson=np.array([0.2, 0.3, 0.1]), normal=np.array([(0., 1.), (0.6, 0.8)])
 	)
 
 
@@ -297,12 +298,50 @@ def test_exportReadsBack(tmp_path):
 	# Mohr's circle of (1, 2, 3): centre 1.5, radius sqrt(0.25 + 9)
 	assert np.column_stack([cells["s1"], cells["s2"]])[:2] == pytest.approx(np.array([(5, 1), (1.5 + math.sqrt(9.25), 1.5 - math.sqrt(9.25))]))
 
+	# plane strain: szz = nu (sxx + syy); von Mises by hand, for (5, 1, 0, 1.2): sqrt((16 + 0.04 + 14.44) / 2)
+	assert list(cells["szz"]) == pytest.approx([1.2, 0.6, 0, -2.4, 0, 0]) and cells["vonMises"][0] == pytest.approx(math.sqrt(15.24))
+	assert cells["vonMises"][1] == pytest.approx(math.sqrt((1 + 1.4**2 + 0.4**2) / 2 + 27)) # (1, 2, 3, 0.6)
+
 	mesh, cells = readBack(tmp_path / "out" / "joints_0001.vtu")
 	assert [(block.type, len(block.data)) for block in mesh.cells] == [("line", 4)]
 	assert mesh.points[mesh.cells[0].data[1]] == pytest.approx(np.array([(0.5e-6, 1.001e-3, 0), (1.5e-3 + 0.5e-6, 1.001e-3, 0)]))
 	for name in ("Opening", "Slip", "Sigma", "Tau", "Status"):
 		assert list(cells[name.lower()]) == list(getattr(model, "point" + name))
 	assert list(cells["firstBlock"]) == [0, 0, 1, 1] and list(cells["secondBlock"]) == [1, 1, 2, 2]
+	assert list(cells["area"]) == [75e-6, 75e-6, 25e-6, 25e-6] and list(cells["damage"]) == [1, 1, 0, 0]
+	assert cells["normal"][0] == pytest.approx([0, 1, 0]) and cells["normal"][3] == pytest.approx([0.6, 0.8, 0])
+
+
+def test_exportWithoutJoints(tmp_path):
+	"""An empty set of cells is a file that can be read."""
+	model = column()
+	for name in (
+		"segmentNodes", "segmentBlocks", "segmentParameters", "segmentArea", "normal", "pointOpening", "pointSlip", "pointSigma", "pointTau",
+		"pointStatus"
+	):
+		setattr(model, name, getattr(model, name)[:0])
+	export.BlocksExport(tmp_path).write(model, 0)
+	piece = ElementTree.parse(tmp_path / "joints_0000.vtu").getroot().find("UnstructuredGrid/Piece") # meshio itself cannot read an empty file
+	assert piece.attrib == {"NumberOfPoints": "0", "NumberOfCells": "0"}
+	arrays = {array.get("Name"): array.attrib for array in piece.iter("DataArray")}
+	assert {"Points", "connectivity", "offsets", "types", "opening", "normal", "damage"} <= set(arrays)
+	assert arrays["normal"]["NumberOfComponents"] == "3" and arrays["status"]["type"] == "UInt8" and arrays["firstBlock"]["type"] == "Int32"
+
+
+def test_filmHasThePeakAndItsFrames():
+	"""A model that moves and goes on moving: what was taken stays as it was."""
+	model = column()
+	film = snapshot.Film(model, frames=4)
+	for step, stress in enumerate([0, 1, 2, 5, 3, 4, 1]):
+		model.position[5] = step
+		film.look(step / 6, stress, 0.1 * step)
+	assert [round(10 * some.time) for some in film.states()] == [0, 2, 3, 5, 6] and film.peak.time == pytest.approx(0.3)
+	assert [some.position[5, 0] for some in film.states()] == [0, 2, 3, 5, 6] and film.peak.zoneStress()[0, 0] == 5
+	alone = snapshot.Film(model)
+	alone.look(0, 1, 0)
+	assert len(alone.states()) == 1
+	with pytest.raises(ValueError, match="frames must not be negative"):
+		snapshot.Film(model, -1)
 
 
 def test_exportBeginsAnew(tmp_path):

@@ -65,6 +65,15 @@ def test_disc(tmp_path):
 	assert found["centre_stress_along"][0] == pytest.approx(found["centre_stress_along"][1], rel=0.02)
 
 
+@needsYade
+def test_triplet(tmp_path):
+	"""No joint can carry more than if it broke everywhere at once, but for 2 % of inertia; friction comes through, since it is all that is left."""
+	found = measured(tmp_path, "triplet")
+	peaks = [found[f"peak_at_{sigma}"] for sigma in ("0.2", "0.6", "1")]
+	assert all(0.5 * most < peak < 1.02 * most for peak, most in peaks) and peaks[0][0] < peaks[1][0] < peaks[2][0]
+	assert found["friction"][0] == pytest.approx(found["friction"][1], rel=0.15)
+
+
 def test_bisection():
 	low, high = bisect(lambda x: x < 0.3, 0, 1, 1e-3)
 	assert low < 0.3 <= high and high - low <= 1e-3 * high

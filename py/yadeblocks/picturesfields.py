@@ -1,0 +1,229 @@
+# yade-blocks, GPL-2.0-or-later
+"""What goes on in a specimen: displacements, stresses, joints; one call for a picture, one for all on a sheet.
+
+	drawField(folder / 'stress.png', model, 's1')          # contours of a displacement or a stress, see `fields`
+	drawCrosses(folder / 'crosses.png', model)             # principal stresses
+	drawJoints(folder / 'slip.png', model, 'slip')         # bars on the joints: sigma, tau, opening or slip
+	drawSheet(folder / 'peak.png', film.peak, title='at the peak')
+
+`model` is a BlockModel or a Snapshot of one. Shapes are deformed, as in pictures.drawCracks."""
+import numpy as np
+
+from . import pictures
+from .export import blockOutlines, contactLines, jointMotion, outOfPlaneStress, principalStresses, vonMises
+
+#: What contours can show: displacements u, ux, uy of the grid points and stresses of the zones.
+fields = ("u", "ux", "uy", "sxx", "syy", "sxy", "szz", "s1", "s2", "vonMises")
+#: What bars can show.
+onJoints = ("sigma", "tau", "opening", "slip")
+
+_names = {
+	"u": "displacement", "ux": "displacement along x", "uy": "displacement along y", "sxx": "stress sxx", "syy": "stress syy", "sxy": "shear stress sxy",
+	"szz": "stress out of the plane szz", "s1": "larger principal stress", "s2": "smaller principal stress", "vonMises": "stress of von Mises",
+	"sigma": "normal stress of the joints", "tau": "shear stress of the joints", "opening": "opening of the joints", "slip": "slip of the joints"
+}
+_crosses = 900 # so many crosses at most
+_red, _blue = "#B2182B", "#2166AC" # tension and compression, also at the ends of the colour map
+
+
+def drawField(path, model, what, magnification=None, window=None, title=""):
+	"""Contours of one of `fields` on the deformed specimen. magnification, window: as in pictures.drawCracks. Returns the path."""
+	_known("what", what, fields)
+	return _alone(path, model, lambda axes, view: _field(axes, view, what), magnification, window, title or _names[what])
+
+
+def drawCrosses(path, model, magnification=None, window=None, title="principal stresses"):
+	"""Principal stresses as crosses along their directions, as long as they are large; tension red, compression blue; of at most 900 zones, evenly spread."""
+	return _alone(path, model, _cross, magnification, window, title)
+
+
+def drawJoints(path, model, what, magnification=None, window=None, title=""):
+	"""Bars on the joints, as high as one of `onJoints` is large: a bar for each contact point, over its half of the joint; positive values (tension, opening)
+	on the side of the joint's second block. Joints that have become free contacts show no stress."""
+	_known("what", what, onJoints)
+	return _alone(path, model, lambda axes, view: _bars(axes, view, what), magnification, window, title or _names[what])
+
+
+def drawSheet(path, model, magnification=None, window=None, title=""):
+	"""Cracks, displacement, larger and smaller principal stress, crosses, and bars of the joints' sigma, tau, opening and slip, on one sheet."""
+	view = _View(model, magnification, window)
+	panels = [("cracks", _cracks), (_names["u"], lambda a, v: _field(a, v, "u")), ("principal stresses", _cross),
+			(_names["s1"], lambda a, v: _field(a, v, "s1")), (_names["s2"], lambda a, v: _field(a, v, "s2")),
+			*((_names[what], lambda a, v, what=what: _bars(a, v, what)) for what in onJoints)]
+	if not len(model.pointStatus): panels = panels[1:5]
+	if not len(model.zoneNodes): panels = [panel for panel in panels if panel[0] not in (_names["s1"], _names["s2"], "principal stresses")]
+	size = view.high - view.low
+	columns = 3 if size[0] < 2.5 * size[1] else 2
+	rows = -(-len(panels) // columns)
+	width = 3.2
+	height = min(width * size[1] / size[0], 2 * width)
+	with pictures._picture(path, columns * width, rows * (height + 0.75) + 0.4) as figure:
+		figure.suptitle(title, fontsize=10)
+		for number, (name, draw) in enumerate(panels):
+			axes = figure.add_axes(
+				((number % columns + 0.03) / columns, ((rows - 1 - number // columns) * (height + 0.75) + 0.5) / (rows * (height + 0.75) + 0.4),
+					0.94 / columns, height / (rows * (height + 0.75) + 0.4))
+			)
+			_frame(axes, view, name)
+			draw(axes, view)
+	return path
+
+
+class _View:
+	"""Where everything is drawn."""
+	def __init__(self, model, magnification, window):
+		self.model, reference = model, np.asarray(model.reference)
+		displacement = model.position - reference
+		self.displacement = displacement
+		displacement = displacement - np.median(displacement, axis=0)
+		self.magnification = pictures._visible(np.ptp(reference, axis=0).max(), displacement) if magnification is None else magnification
+		self.shown = reference + self.magnification * displacement
+		self.low, self.high = pictures._window(reference, self.shown) if window is None else np.reshape(window, (2, 2))
+
+
+def _alone(path, model, draw, magnification, window, title):
+	view = _View(model, magnification, window)
+	size = view.high - view.low
+	width, height = size * min(pictures._textWidth / size[0], 1.2 * pictures._textWidth / size[1])
+	with pictures._picture(path, width, height) as figure:
+		axes = figure.add_axes((0, 0, 1, 1))
+		_frame(axes, view, title)
+		draw(axes, view)
+		pictures._drawScale(axes, view.magnification, drop=30)
+	return path
+
+
+def _frame(axes, view, title):
+	axes.set(xlim=(view.low[0], view.high[0]), ylim=(view.low[1], view.high[1]), aspect="equal")
+	axes.axis("off")
+	axes.set_title(title, fontsize=8)
+
+
+def _known(name, value, choices):
+	if value not in choices: raise ValueError(f"{name} must be one of {', '.join(choices)}, got {value!r}")
+
+
+def _outlines(axes, view, fill="none"):
+	from matplotlib.collections import PathCollection
+	from matplotlib.path import Path
+	paths = [Path.make_compound_path(*(Path(view.shown[np.append(ring, ring[0])], closed=True) for ring in rings)) for rings in blockOutlines(view.model)]
+	axes.add_collection(PathCollection(paths, facecolors=fill, edgecolors="#5F5F5F", linewidths=0.2, zorder=2 if fill == "none" else 1), autolim=False)
+
+
+def _cracks(axes, view):
+	pictures._drawBlocks(axes, view.model, view.shown)
+	handles = pictures._drawCrackLines(axes, view.model, view.shown)
+	axes.legend(handles=handles, title="" if handles else "no broken joints", loc="upper center", bbox_to_anchor=(0.5, -0.01), fontsize=5, ncol=2)
+
+
+def _values(view, what):
+	"""Values for each zone or grid point, and the unit."""
+	if what in ("u", "ux", "uy"):
+		d = view.displacement
+		return (np.hypot(*d.T) if what == "u" else d[:, "xy".index(what[1])]), "m"
+	stress = np.asarray(view.model.zoneStress())
+	if what in ("s1", "s2"): return principalStresses(stress)[:, int(what[1]) - 1], "Pa"
+	if what == "szz": return outOfPlaneStress(view.model, stress), "Pa"
+	if what == "vonMises": return vonMises(stress, outOfPlaneStress(view.model, stress)), "Pa"
+	return stress[:, ("sxx", "syy", "sxy").index(what)], "Pa"
+
+
+def _scaled(values, unit):
+	"""Values in a unit in which they are neither tiny nor huge, and its name."""
+	largest = np.abs(values).max() if len(values) else 0
+	prefixes = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+	factor, prefix = next(((factor, prefix) for factor, prefix in prefixes if largest >= factor), (1, ""))
+	return values / factor, prefix + unit
+
+
+def _field(axes, view, what):
+	"""Colours: to both sides of zero for what has two signs; the largest hundredth shares the last colour."""
+	from matplotlib.collections import PolyCollection
+	model = view.model
+	values, unit = _scaled(*_values(view, what))
+	_outlines(axes, view, "#EDEDED")
+	if what in ("u", "ux", "uy"):
+		rigid = np.flatnonzero(np.diff(model.firstZone) == 0).tolist()
+		triangles = np.concatenate([np.reshape(model.zoneNodes, (-1, 3)), *map(model.cornerTriangles, rigid)])
+		colours = axes.tripcolor(*view.shown.T, triangles, values, shading="gouraud", cmap="viridis" if what == "u" else "RdBu_r", zorder=1.5)
+	else:
+		if not len(values): return
+		colours = PolyCollection(
+			view.shown[model.zoneNodes], array=values, cmap="viridis" if what == "vonMises" else "RdBu_r", linewidths=0, zorder=1.5
+		)
+		colours.set_edgecolor("face")
+		axes.add_collection(colours, autolim=False)
+	most = np.percentile(np.abs(values), 99) or 1
+	colours.set_clim(0 if what in ("u", "vonMises") else -most, most)
+	_outlines(axes, view)
+	_bar(axes, colours, unit)
+
+
+def _bar(axes, colours, unit):
+	place = axes.inset_axes((0.1, -0.07, 0.8, 0.025))
+	bar = axes.figure.colorbar(colours, cax=place, orientation="horizontal", extend="both")
+	bar.ax.tick_params(labelsize=6, width=0.4, length=2, pad=1)
+	bar.ax.set_xlabel(f"[{unit}]", fontsize=6, labelpad=1)
+	bar.outline.set_linewidth(0.4)
+
+
+def _cross(axes, view):
+	from matplotlib.collections import LineCollection
+	model = view.model
+	_outlines(axes, view, "#F7F7F7")
+	stress = np.asarray(model.zoneStress())
+	if not len(stress): return
+	middles = view.shown[model.zoneNodes].mean(axis=1)
+	chosen = _spread(middles, view, _crosses)
+	stress, middles = stress[chosen], middles[chosen]
+	principal, unit = _scaled(principalStresses(stress), "Pa")
+	angle = np.arctan2(2 * stress[:, 2], stress[:, 0] - stress[:, 1]) / 2
+	spacing = np.sqrt(np.prod(view.high - view.low) / max(len(chosen), 1))
+	most = np.percentile(np.abs(principal).max(axis=1), 99) or 1
+	for column, turn in ((0, 0), (1, np.pi / 2)):
+		half = 0.6 * spacing * np.clip(principal[:, column] / most, -1.5, 1.5)[:, None] * np.column_stack([np.cos(angle + turn), np.sin(angle + turn)])
+		axes.add_collection(
+			LineCollection(
+				np.stack([middles - half, middles + half], axis=1), colors=np.where(principal[:, column] > 0, _red, _blue), linewidths=0.6,
+				zorder=3
+			), autolim=False
+		)
+	axes.text(0.5, -0.04, f"red tension, blue compression; the longest {most:.3g} {unit}", transform=axes.transAxes, ha="center", va="center", fontsize=6)
+
+
+def _spread(places, view, most):
+	"""Indices of places, one in each cell of a grid of about so many."""
+	if len(places) <= most: return np.arange(len(places))
+	size = view.high - view.low
+	cell = np.sqrt(np.prod(size) / most)
+	columns = int(np.ceil(size[0] / cell)) + 1
+	index = np.floor((places - view.low) / cell).astype(int)
+	return np.unique(index[:, 1] * columns + index[:, 0], return_index=True)[1]
+
+
+def _bars(axes, view, what):
+	from matplotlib.collections import PolyCollection
+	model = view.model
+	_outlines(axes, view, "#F7F7F7")
+	values = np.array(getattr(model, "point" + what.capitalize()))
+	if not len(values): return
+	there = np.repeat(np.asarray(model.segmentArea) > 0, 2)
+	if what in ("opening", "slip"): # free contacts, too
+		values = np.where(there, values, jointMotion(model)[onJoints[2:].index(what)])
+		there[:] = True
+	lines, values = contactLines(model, view.shown)[there], values[there]
+	normals = np.repeat(model.normal, 2, axis=0)[there]
+	values, unit = _scaled(values, "Pa" if what in ("sigma", "tau") else "m")
+	if not len(values) or not np.abs(values).max() > 0: return
+	most = np.percentile(np.abs(values), 99) or np.abs(values).max()
+	along = lines[:, 1] - lines[:, 0]
+	across = np.column_stack([-along[:, 1], along[:, 0]])
+	across /= np.maximum(np.hypot(*across.T), 1e-300)[:, None]
+	across *= np.sign((across * normals).sum(axis=1))[:, None]
+	tall = min(0.035 * (view.high - view.low).max(), 2 * np.median(np.hypot(*along.T))) # bars of small joints stay among them
+	height = tall * np.clip(values / most, -1, 1)[:, None] * across
+	corners = np.stack([lines[:, 0], lines[:, 1], lines[:, 1] + height, lines[:, 0] + height], axis=1)
+	colours = np.where(values > 0, _red, _blue)
+	axes.add_collection(PolyCollection(corners, facecolors=colours, edgecolors=colours, linewidths=0.1, alpha=0.8, zorder=3), autolim=False)
+	sense = {"sigma": "red tension, blue compression", "opening": "red open, blue closed"}.get(what, "red and blue: the two senses")
+	axes.text(0.5, -0.04, f"{sense}; the highest {most:.3g} {unit}", transform=axes.transAxes, ha="center", va="center", fontsize=6)

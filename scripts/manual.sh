@@ -1,0 +1,12 @@
+#!/bin/bash
+# Builds the manual: scripts/manual.sh. It is then in build/manual/html/index.html.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/setup.sh --brief python3-sphinx
+[ -v HOME ] || export HOME=~ # YADE does not start without
+rm -rf build/manual
+mkdir -p build/manual
+cp -r py/manual build/manual/source
+PYTHONPATH="$PWD/py${PYTHONPATH:+:$PYTHONPATH}" yade -n -x -j1 py/manual/classes.py build/manual/source/classes > build/manual/log 2>&1 || { cat build/manual/log >&2; exit 1; }
+/usr/bin/python3 -m sphinx -q -W --keep-going -b html build/manual/source build/manual/html
+echo "see build/manual/html/index.html"
