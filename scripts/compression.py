@@ -49,8 +49,7 @@ common = scenario.commonParameters(sizeMeaning='edge', lloyd=3, steps=30000, alp
 del common['size']
 p = scenario.parameters({
 	**common, **scenario.usualParameters(
-		units='voronoi', cells='voronoi', edgeSegments=1, stroke=3.6e-3, solver='steps', jump=True, servo=False, merge=0.1, halfRate=False, vtk=True, frames=10,
-		sheets=True
+		units='voronoi', cells='voronoi', edgeSegments=1, stroke=3.6e-3, solver='steps', jump=True, servo=False, merge=0.1
 	), 'unitSize': Key(
 		0.01, 'size of the Voronoi cells of bricks, or of the zones of plain ones', 'm',
 		(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick')
@@ -58,8 +57,8 @@ p = scenario.parameters({
 		0.003, 'size of the Voronoi cells of mortar', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than a mortar joint')
 	), 'residualFriction': Key('zero', 'friction of broken joints: none, or as before',
 					rule=('zero', 'kept')), 'width': Key(0.285, 'width of the prism', 'm', scenario.positive),
-	'joints': Key('paper', 'brittle joints of Tables 8 and 9, or joints that soften',
-			rule=tuple(sets)), **softening.jointKeys(*sets['paper']), **softening.scatterKeys
+	'joints': Key('paper', 'brittle joints of Tables 8 and 9, or joints that soften', rule=tuple(sets)), **softening.jointKeys(*sets['paper']),
+	**softening.scatterKeys, **scenario.usualParameters(halfRate=False, vtk=True, frames=10, sheets=True)
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'compression: solver=events has no rate: servo and halfRate must be false')
 if p.residualFriction == 'zero':

@@ -15,8 +15,7 @@ from pathlib import Path
 
 root = Path(__file__).resolve().parent.parent
 features = {
-	"bare": {}, "contact": {"contact": True}, "energy": {"energy": True},
-	"prism": {"contact": True, "broken": 0}, "broken": {"contact": True, "broken": 1}
+	"bare": {}, "contact": {"contact": True}, "energy": {"energy": True}, "prism": {"contact": True, "broken": 0}, "broken": {"contact": True, "broken": 1}
 }
 
 scene = r'''

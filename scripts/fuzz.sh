@@ -1,5 +1,6 @@
 #!/bin/bash
-# Random input, at scale: scripts/fuzz.sh part=geometry|scenes [count=N] [seed=N]. Ends with the number of cases that nothing explains, and fails if there are any.
+# Random input, at scale: scripts/fuzz.sh part=geometry|scenes [count=N] [seed=N]. Ends with the number of cases that nothing explains, and fails if
+# there are any.
 # Each part is a program of its own in tests/fuzz/: `part` is looked up in the list below.
 set -euo pipefail
 cd "$(dirname "$0")/.."

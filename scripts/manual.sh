@@ -7,6 +7,7 @@ scripts/setup.sh --brief python3-sphinx
 rm -rf build/manual
 mkdir -p build/manual
 cp -r py/manual build/manual/source
-PYTHONPATH="$PWD/py${PYTHONPATH:+:$PYTHONPATH}" yade -n -x -j1 py/manual/classes.py build/manual/source/classes > build/manual/log 2>&1 || { cat build/manual/log >&2; exit 1; }
+PYTHONPATH="$PWD/py${PYTHONPATH:+:$PYTHONPATH}" yade -n -x -j1 py/manual/classes.py build/manual/source/classes > build/manual/log 2>&1 \
+	|| { cat build/manual/log >&2; exit 1; }
 /usr/bin/python3 -m sphinx -q -W --keep-going -b html build/manual/source build/manual/html
 echo "see build/manual/html/index.html"

@@ -10,8 +10,11 @@ packages="yade libyade python3-yade libeigen3-dev libcgal-dev libboost-dev libbo
 tests=OFF brief=no target="--target yadeblocks"
 while [[ "${1:-}" = --* ]]; do
 	case "$1" in
-		--tests) tests=ON target="" packages+=" python3-pytest libgtest-dev python3-scipy python3-distributed python3-optuna python3-openturns python3-shapely
-			python3-ezdxf python3-svgelements" ;;
+		--tests)
+			tests=ON target=""
+			packages+=" python3-pytest libgtest-dev python3-scipy python3-distributed python3-optuna python3-openturns python3-shapely
+				python3-ezdxf python3-svgelements"
+			;;
 		--brief) brief=yes ;;
 		*) echo "setup.sh knows --tests and --brief, got $1" >&2; exit 2 ;;
 	esac

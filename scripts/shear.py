@@ -49,7 +49,7 @@ sets = { # all joints alike; angles in degrees
 	'measured': dict(
 		friction=degrees(softening.measured['frictionAngle']), residualFriction=residualFriction, dilation=0.,
 		**{name: softening.measured[name]
-	for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII')}
+			for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII')}
 	),
 	'calibrated':
 	dict(kn=400e9, ks=200e9, cohesion=1.25e6, tension=0.5e6, friction=50., residualFriction=residualFriction, dilation=0., GfI=20., GfII=150.),
@@ -62,13 +62,11 @@ pressSteps = 2000
 
 p = scenario.parameters({
 	**scenario.commonParameters(sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2), **scenario.usualParameters(
-		sigma=0.5e6, stroke=1e-3, approach=0.2, solver='steps', jump=True, servo=False, units='plain', cells='voronoi', edgeSegments=1,
-		brickZone=8e-3, merge=0.1, halfRate=False, vtk=True, frames=10,
-		sheets=True
+		sigma=0.5e6, stroke=1e-3, approach=0.2, solver='steps', jump=True, servo=False, units='plain', cells='voronoi', edgeSegments=1
 	), 'afterPeak': Key(True, 'go on behind the peak, to the residual stress'),
 	'size': Key(3.5e-3, 'size of the Voronoi cells', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer')),
-	'joints': Key('paper', 'brittle joints of Table 5, or joints that soften',
-			rule=tuple(sets)), **softening.jointKeys(*sets['paper']), **softening.scatterKeys
+	'joints': Key('paper', 'brittle joints of Table 5, or joints that soften', rule=tuple(sets)), **softening.jointKeys(*sets['paper']),
+	**softening.scatterKeys, **scenario.usualParameters(brickZone=8e-3, merge=0.1, halfRate=False, vtk=True, frames=10, sheets=True)
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'shear: solver=events has no rate: servo and halfRate must be false')
 scenario.require(p.afterPeak or p.solver == 'events', 'shear: afterPeak=false needs solver=events, got solver=steps')

@@ -65,12 +65,12 @@ stroke, velocity, faster = 0.03e-3, 0.02e-3, 10 # [m], [m/s]; so many times as f
 
 p = scenario.parameters({
 	**scenario.commonParameters(lloyd=0, alpha=0.8, steps=40000), **scenario.usualParameters(
-		units='plain', cells='voronoi', edgeSegments=1, brickZone=8e-3, merge=0.2, solver='steps', jump=True, servo=False, halfRate=False, vtk=True, frames=10,
-		sheets=True
+		units='plain', cells='voronoi', edgeSegments=1, brickZone=8e-3, merge=0.2, solver='steps', jump=True, servo=False
 	), 'size': Key(0.0, 'size of the Voronoi cells; 0: of the case', 'm', (lambda s: 0 <= s < mortarHeight, 'must be smaller than the mortar layer')),
 	'case': Key('TT2', 'properties of brittle joints, see above',
-			rule=tuple(cases)), 'joints': Key('paper', 'brittle joints of the case, or joints that soften', rule=('paper', *softeningSets)),
-	**softening.jointKeys('tension', 'cohesion', 'GfI', 'GfII'), **softening.scatterKeys
+			rule=tuple(cases)), 'joints': Key('paper', 'brittle joints of the case, or joints that soften',
+								rule=('paper', *softeningSets)), **softening.jointKeys('tension', 'cohesion', 'GfI', 'GfII'),
+	**softening.scatterKeys, **scenario.usualParameters(halfRate=False, vtk=True, frames=10, sheets=True)
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'tension: solver=events has no rate: servo and halfRate must be false')
 scenario.require(p.solver == 'steps' or p.joints == 'paper', 'tension: solver=events knows brittle joints only, got joints=' + p.joints)

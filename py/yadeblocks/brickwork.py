@@ -43,8 +43,10 @@ def englishBond(bricks, courses, length, width, height, joint=0.0, **more):
 def brickwork(width, courses, height, pattern, joint=0.0, origin=(0.0, 0.0), crack=False, openings=(), least=0.2):
 	"""A wall of any such bond -> layout.Layout with blocks of the kinds 'whole', 'part' (cut at an end or an opening) and 'half' (with crack).
 
-	width of the wall with its joints, height of a brick [m]; pattern: a brick's length [m] and the fraction of it (with its joint) by which the course begins
-	shorter, for each course, repeated from below; joint: thickness [m], half of which goes to each brick; origin: lower left corner [m]; crack: a joint in the
+	width of the wall with its joints, height of a brick [m]; pattern: a brick's length [m] and the fraction of it (with its joint) by which the
+	course begins
+	shorter, for each course, repeated from below; joint: thickness [m], half of which goes to each brick; origin: lower left corner [m]; crack:
+	a joint in the
 	middle of every whole brick; openings: rectangles (x0, y0, x1, y1) [m] that begin and end at bed joints; least: pieces shorter than this fraction of a
 	brick are refused. notes: `coursing` [m], the height of a course with its joint, and `courseOf`, the course of each block from below.
 
@@ -67,7 +69,8 @@ def brickwork(width, courses, height, pattern, joint=0.0, origin=(0.0, 0.0), cra
 			for a, b in _outside(x0, x1, [(h0, h1) for h0, h1, c0, c1 in holes if c0 <= course < c1]):
 				if b - a < least * unit * (1 - 1e-9):
 					raise ValueError(
-						f'brickwork: course {course} has a piece of {1e3 * (b - a):.4g} mm at x = {left + a:.4g} m, less than {least:g} of a brick'
+						f'brickwork: course {course} has a piece of {1e3 * (b - a):.4g} mm at x = {left + a:.4g} m, '
+						f'less than {least:g} of a brick'
 					)
 				whole = b - a > (1 - 1e-9) * unit
 				parts = [(a, (a + b) / 2), ((a + b) / 2, b)] if crack and whole else [(a, b)]

@@ -89,8 +89,10 @@ class BlocksExport:
 	"""Two collections for ParaView in `folder`, begun anew: blocks.pvd (zones; rigid blocks as triangles between their corners) and joints.pvd
 	(a line for every contact point, its half of the segment), each with a compressed .vtu file per step.
 
-	Zones: block, material (number in O.materials' order), stresses sxx, syy, sxy, szz, principal stresses s1, s2 in the plane and vonMises [Pa]; grid points:
-	displacement [m], velocity [m/s]; joints: firstBlock, secondBlock, normal (out of the first block), area [m2], opening [m], slip [m], sigma [Pa], tau [Pa],
+	Zones: block, material (number in O.materials' order), stresses sxx, syy, sxy, szz, principal stresses s1, s2 in the plane and vonMises [Pa];
+	grid points:
+	displacement [m], velocity [m/s]; joints: firstBlock, secondBlock, normal (out of the first block), area [m2], opening [m], slip [m], sigma
+	[Pa], tau [Pa],
 	status (0 intact, 1 broken in tension, 2 in shear, 3 never bonded, 4 softening) and damage (0 whole to 1, only residual strength is left)."""
 	def __init__(self, folder):
 		self.folder = Path(folder)

@@ -24,7 +24,8 @@ def cut(outline, sets=(), cracks={}, holes=(), least=0.0):
 	sets: JointSets; cracks: name -> points of a polyline [m]; holes: polygons that are left out; least: blocks with less area [m2] join the neighbour with
 	which they have the longest side in common.
 
-	A joint that ends within a block does not part it and is left out, as in UDEC. notes: `traces`, name -> list of (2, 2) arrays [m]; `lostLength`: of what was
+	A joint that ends within a block does not part it and is left out, as in UDEC. notes: `traces`, name -> list of (2, 2) arrays [m];
+	`lostLength`: of what was
 	left out [m]; `merged`: how many blocks joined a neighbour. Errors: ValueError for impossible sets and polygons."""
 	shapely = _shapely()
 	region = shapely.geometry.Polygon(outline, holes)

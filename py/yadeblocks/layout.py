@@ -59,7 +59,8 @@ class Layout:
 		return (*points.min(axis=0), *points.max(axis=0))
 
 	def addTo(self, model, material, zoneSize=None, rigid=False, **region):
-		"""Adds all blocks to a BlockModel -> Placed. material: a label; zoneSize [m] and further arguments as in BlockModel.addRegion, or rigid=True."""
+		"""Adds all blocks to a BlockModel -> Placed. material: a label; zoneSize [m] and further arguments as in BlockModel.addRegion, or
+		rigid=True."""
 		if rigid == (zoneSize is not None): raise ValueError('Layout.addTo: either zoneSize or rigid=True')
 		if rigid and region: raise ValueError(f'Layout.addTo: rigid blocks have no {", ".join(region)}')
 		add = lambda ring, holes: model.addRigid(ring.tolist(), material, holes=holes
@@ -79,7 +80,8 @@ class Placed:
 		return chosen
 
 	def joints(self, model):
-		"""Joints by name, indices for BlockModel.setJoints: {'bed': array, 'head': array, ..., 'platen': array}, each of those with the builder's names that
+		"""Joints by name, indices for BlockModel.setJoints: {'bed': array, 'head': array, ..., 'platen': array}, each of those with the
+		builder's names that
 		exists; 'platen' are those with blocks that are not of this layout. After bond(); RuntimeError before."""
 		pairs = np.asarray(model.segmentBlocks)
 		if not len(pairs): raise RuntimeError('Placed.joints: there are no joints; BlockModel.bond() makes them')

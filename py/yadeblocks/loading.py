@@ -62,7 +62,8 @@ def follow(model, group, label='', displacement=math.inf, **options):
 
 
 def comesToRest(model, within, ratio=1e-6, floor=0.0, period=500, maxSteps=100000):
-	"""Whether what moves comes to rest, True, or some grid point goes further than `within` [m] from its reference position or is still moving after maxSteps
+	"""Whether what moves comes to rest, True, or some grid point goes further than `within` [m] from its reference position or is still moving
+	after maxSteps
 	(counted from O.iter = 0), False. Rest is an unbalanced force ratio below `ratio`; floor, period: as in `settle`."""
 	if not within > 0: raise ValueError('comesToRest: within must be positive, got %r' % within)
 	if not period >= 1: raise ValueError('comesToRest: period must be at least 1, got %r' % period)

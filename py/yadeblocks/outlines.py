@@ -21,7 +21,8 @@ def read(path, unit=1.0, sagitta=None):
 	"""All closed polygons of a file -> a list of Outline, in the order of the file.
 
 	unit: metres in a unit of the drawing (1e-3 for millimetres); sagitta: how far chords may leave a curve [m], by default a thousandth of the drawing's
-	size. CSV: a line x,y or x,y,name for each corner, an empty line (or another name) between two polygons, lines that begin with # are remarks. DXF: closed
+	size. CSV: a line x,y or x,y,name for each corner, an empty line (or another name) between two polygons, lines that begin with # are remarks.
+	DXF: closed
 	polylines with their arcs, circles and ellipses of the model space. SVG: closed paths and shapes with their transformations, y turned upwards,
 	in pixels (96 an inch). Errors: ValueError for other files, for those without a closed polygon and for polylines that are open."""
 	path = Path(path)

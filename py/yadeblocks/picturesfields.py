@@ -33,12 +33,14 @@ def drawField(path, model, what, magnification=None, window=None, title=""):
 
 
 def drawCrosses(path, model, magnification=None, window=None, title="principal stresses"):
-	"""Principal stresses as crosses along their directions, as long as they are large; tension red, compression blue; of at most 900 zones, evenly spread."""
+	"""Principal stresses as crosses along their directions, as long as they are large; tension red, compression blue; of at most 900 zones,
+	evenly spread."""
 	return _alone(path, model, _cross, magnification, window, title)
 
 
 def drawJoints(path, model, what, magnification=None, window=None, title=""):
-	"""Bars on the joints, as high as one of `onJoints` is large: a bar for each contact point, over its half of the joint; positive values (tension, opening)
+	"""Bars on the joints, as high as one of `onJoints` is large: a bar for each contact point, over its half of the joint; positive values
+	(tension, opening)
 	on the side of the joint's second block. Joints that have become free contacts show no stress."""
 	_known("what", what, onJoints)
 	return _alone(path, model, lambda axes, view: _bars(axes, view, what), magnification, window, title or _names[what])

@@ -80,7 +80,8 @@ def install():
 	save, load, name, saved = Omega.save, Omega.load, Omega.filename, []
 
 	def saveSealed(self, file, quiet=False):
-		"""Saves the scene, whole or not at all, with a checksum; see yadeblocks.saving. Formats by the name, as in YADE: .yade or .xml, and .gz or .bz2 behind."""
+		"""Saves the scene, whole or not at all, with a checksum; see yadeblocks.saving. Formats by the name, as in YADE: .yade or .xml, and
+		.gz or .bz2 behind."""
 		if file.startswith(":memory:"): return save(self, file, quiet)
 		write(file, save)
 		saved[:] = [file]
@@ -96,6 +97,8 @@ def install():
 		if not self.filename: raise RuntimeError("O.reload: the scene was not saved or loaded")
 		loadSealed(self, self.filename, quiet)
 
-	filename = property(lambda self: saved[0] if saved else name.__get__(self), doc="Filename under which the simulation was saved or loaded last; None if not.")
+	filename = property(
+		lambda self: saved[0] if saved else name.__get__(self), doc="Filename under which the simulation was saved or loaded last; None if not."
+	)
 	Omega.unsealedSave, Omega.unsealedLoad = save, load
 	Omega.save, Omega.load, Omega.reload, Omega.filename = saveSealed, loadSealed, reloadSealed, filename

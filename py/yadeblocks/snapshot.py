@@ -16,7 +16,8 @@ _passing = "position velocity segmentArea normal pointOpening pointSlip pointSig
 
 
 class Snapshot:
-	"""A copy of what pictures and exports read of a model, with the same names: `position`, `pointSigma`, `zoneStress()`, ... ; `time`: when it was taken [s].
+	"""A copy of what pictures and exports read of a model, with the same names: `position`, `pointSigma`, `zoneStress()`, ... ; `time`: when it
+	was taken [s].
 
 	like: a Snapshot of the same model, whose arrays that never change are shared. `poisson`: Poisson's ratio of every material of materialLabels."""
 	def __init__(self, model, time=math.nan, like=None):

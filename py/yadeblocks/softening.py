@@ -34,7 +34,8 @@ _keys = {
 
 
 def jointKeys(*names):
-	"""Scenario keys for properties of the joints, which stand in place of those of the chosen set: `kn ks cohesion tension friction residualFriction dilation
+	"""Scenario keys for properties of the joints, which stand in place of those of the chosen set: `kn ks cohesion tension friction
+	residualFriction dilation
 	strengths GfI GfII`."""
 	return {name: scenario.Key(-1.0, _keys[name][0], *_keys[name][1:]) for name in names}
 

@@ -15,7 +15,8 @@ from .layout import Layout
 def arch(radius, thickness, count, angle=math.pi, chords=1, centre=(0.0, 0.0)):
 	"""A circular arch, symmetric about the vertical through its centre -> layout.Layout with blocks of the kind 'voussoir'.
 
-	radius: of the centre line [m]; thickness: radial [m]; count: of voussoirs; angle: of opening [rad], pi for a semicircle; chords: straight pieces of each
+	radius: of the centre line [m]; thickness: radial [m]; count: of voussoirs; angle: of opening [rad], pi for a semicircle; chords: straight
+	pieces of each
 	voussoir's inner and outer side; centre [m]. notes: `joints`, the (count + 1, 2, 2) inner and outer ends of all joints, springings included [m]."""
 	for name, value, fulfilled, rule in (('radius', radius, radius > 0,
 						'be positive'), ('thickness', thickness, 0 < thickness < 2 * radius, 'lie in (0, 2 radius)'),

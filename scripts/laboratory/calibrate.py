@@ -273,8 +273,8 @@ def markdown(command, edges, parameters, rows, profiles, correlations, best, tri
 		mean = f"{row['mean']:.4g} ± {row['error']:.2g}" if row["mean"] is not None else ""
 		lines.append(f"| {key} | {row['target']:.4g} | {row['tolerance']:.3g} | {row['fitted']:.4g} | {mean} | {row['verdict']} |")
 	lines += [
-		"",
-		f"- {tried} trials and {2 * len(edges)} beside the best, {p.seeds} seeds each, {p.heldOut} held out; misfit {best.misfit:.3g}; sampler seed {p.samplerSeed}."
+		"", f"- {tried} trials and {2 * len(edges)} beside the best, {p.seeds} seeds each, {p.heldOut} held out; "
+		f"misfit {best.misfit:.3g}; sampler seed {p.samplerSeed}."
 	]
 	for (a, b), value in correlations.items():
 		if abs(value) > 0.7: lines.append(f"- {a} and {b} trade against each other (correlation {value:+.2f}).")

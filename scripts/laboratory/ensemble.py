@@ -106,7 +106,8 @@ def markdown(command, rows, why):
 		share = 100 * row["scatter"] / abs(row["mean"]) if row["mean"] else math.nan
 		lines.append(
 			f"| {row['point']} | {row['quantity']} | {row['unit']} | {row['n']} | {row['mean']:.4g} | {row['low']:.4g} to {row['high']:.4g} "
-			f"(± {row['mean_known_to_percent']:.1f} %) | {row['scatter']:.3g} ({share:.1f} %) | {row['characteristic']:.4g} | {row['smallest']:.4g} | "
+			f"(± {row['mean_known_to_percent']:.1f} %) | {row['scatter']:.3g} ({share:.1f} %) | {row['characteristic']:.4g} | "
+			f"{row['smallest']:.4g} | "
 			f"{row['largest']:.4g} |"
 		)
 	lines += [""] + [f"- {count} failed: {reason}" for reason, count in why.items()]

@@ -41,7 +41,8 @@ class Jobs:
 	"""The kept results in `folder`, and a way to get more.
 
 	house: the checkout; plugin: the library that scripts load; pluginFree: scripts whose results do not depend on it;
-	limit: seconds of wall-clock time after which a run counts as failed; parallel: how many at a time on this machine; scheduler, tls: of a cluster to be used
+	limit: seconds of wall-clock time after which a run counts as failed; parallel: how many at a time on this machine; scheduler, tls: of a
+	cluster to be used
 	instead, see Engine. A script is the name of one in scripts/, or the path of one's own.
 	In `with jobs:` the workers stay from one call of `do` to the next."""
 	def __init__(self, house, folder, plugin, pluginFree=(), limit=1800, parallel=1, retry=False, stream=None, scheduler="", tls="", engine=None):
@@ -63,7 +64,8 @@ class Jobs:
 		return self.kept / f"{fingerprint((), job.name, self.code(job.script)[0])[:24]}.json"
 
 	def record(self, job):
-		"""What the job left: {"job", "reported", "units", "expected", "cost", "quality", "curve", "columns"} or {"job", "failed": reason}; None if it has
+		"""What the job left: {"job", "reported", "units", "expected", "cost", "quality", "curve", "columns"} or {"job", "failed": reason};
+		None if it has
 		not been run with this code."""
 		path = self.path(job)
 		return json.loads(path.read_text()) if path.exists() else None
@@ -170,7 +172,8 @@ class Jobs:
 		except OSError as error:
 			part.unlink(missing_ok=True)
 			raise EngineError(
-				f"the result of {job.name} cannot be kept in {self.kept}: {error.strerror}; what is complete is kept, the same command continues"
+				f"the result of {job.name} cannot be kept in {self.kept}: {error.strerror}; "
+				"what is complete is kept, the same command continues"
 			) from None
 		line.done(job, record)
 

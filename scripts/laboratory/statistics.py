@@ -57,7 +57,8 @@ def valuesNeeded(known, share):
 def band(curves, points=200):
 	"""Several curves (x, y) on common x: {"x", "runs", "mean", "low", "median", "high"}, low and high the 5 % and 95 % quantiles of the runs.
 
-	A curve is followed by its largest x so far: where x goes back, y falls at once. Curves end at different x; the band ends where fewer than half go on."""
+	A curve is followed by its largest x so far: where x goes back, y falls at once. Curves end at different x; the band ends where fewer than
+	half go on."""
 	longest = sorted(max(x) for x, y in curves)[len(curves) // 2]
 	grid, rows = np.linspace(0, longest, points), []
 	for x, y in curves:

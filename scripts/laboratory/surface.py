@@ -69,7 +69,8 @@ class Surface:
 		return least.x, 2 * least.cost
 
 	def profiles(self, bounds, points=41):
-		"""{key: {"values", "misfit": the least one with this value held, "best", "low", "high": between which it is within 1 of the least, "determined":
+		"""{key: {"values", "misfit": the least one with this value held, "best", "low", "high": between which it is within 1 of the least,
+		"determined":
 		whether it is not at either bound}}."""
 		from .command import place
 		found = {}
@@ -108,7 +109,8 @@ class Surface:
 		return found
 
 	def correlations(self, keys, pairs):
-		"""{(key, other): correlation} of parameters that fit equally well, all of the bounds alike before. pairs: for each parameter the trials below and
+		"""{(key, other): correlation} of parameters that fit equally well, all of the bounds alike before. pairs: for each parameter the
+		trials below and
 		above the best one, of which the slopes are taken."""
 		row = lambda trial: np.array([(trial.means[name].mean - trial.targets[name].value) / trial.targets[name].tolerance for name in self.names])
 		slopes = np.stack([(row(above) - row(below)) / (np.array(above.unit) - below.unit)[i] for i, (below, above) in enumerate(pairs)], axis=1)

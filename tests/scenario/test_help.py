@@ -65,7 +65,8 @@ def fresh(tmp_path):
 	steps = "for i in 1 2 3 4 5 6 7 8 9 10; do echo \"[$i/10] Building $i\"; done"
 	for name, text in {
 		"dpkg-query": 'case "$*" in *absent*) ;; *) printf installed ;; esac', "ninja": "test -f built && echo 'ninja: no work to do.'; true",
-		"cmake": f'case "$1" in -S) touch build/build.ninja; echo -- Configuring ;; --build) test ! -f fail || {{ echo "error: no such type"; exit 1; }}; '
+		"cmake": f'case "$1" in -S) touch build/build.ninja; echo -- Configuring ;; '
+		f'--build) test ! -f fail || {{ echo "error: no such type"; exit 1; }}; '
 		f'touch built; {steps} ;; esac', "apt-get": 'echo "apt-get $*" >> apt'
 	}.items():
 		(tmp_path / "bin" / name).write_text("#!/bin/sh\n" + text + "\n")

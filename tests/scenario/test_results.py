@@ -33,15 +33,15 @@ def column():
 	position[4:] += (1e-6, 2e-6) # unit and platen have moved away from the mortar
 	stress = np.array([(5., 1., 0.), (1., 2., 3.), (0., 0., 0.), (-4., -4., 0.)])
 	return SimpleNamespace(
-		thickness=0.05, reference=reference, position=position, velocity=np.full((12, 2), (0.1, 0.2)), zoneNodes=zones, firstNode=np.array([
-			0, 4, 8, 12
-		]), firstZone=np.array([0, 2, 4, 4]), firstEdge=np.array([0, 4, 8, 12]), blockMaterial=np.array([0, 1, 2], np.int32),
-		materialLabels=["mortar", "unit", "platen"], edgeNodes=edges, segmentNodes=np.array([(2, 3, 4, 5), (6, 7, 8, 9)], np.int32),
-		segmentBlocks=np.array([(0, 1), (1, 2)], np.int32), segmentParameters=np.array([(0., 1., 1., 0.), (0., 1 / 3, 1., 2 / 3)]),
-		segmentArea=np.array([75e-6, 25e-6]), pointOpening=np.array([1., 2., 3., 4.]), pointSlip=np.array([5., 6., 7., 8.]), pointSigma=np.array([
-			9., 10., 11., 12.
-		]), pointTau=np.array([13., 14., 15., 16.]), pointStatus=np.array([1, 2, 3, 3], np.uint8),
-		pointDamage=np.array([1., 1., 0., 0.]), zoneStress=lambda: stress, cornerTriangles={
+		thickness=0.05, reference=reference, position=position, velocity=np.full((12, 2),
+												(0.1, 0.2)), zoneNodes=zones, firstNode=np.array([0, 4, 8, 12]),
+		firstZone=np.array([0, 2, 4, 4]), firstEdge=np.array([0, 4, 8, 12]), blockMaterial=np.array([0, 1, 2], np.int32), materialLabels=[
+			"mortar", "unit", "platen"
+		], edgeNodes=edges, segmentNodes=np.array([(2, 3, 4, 5), (6, 7, 8, 9)], np.int32), segmentBlocks=np.array([(0, 1), (1, 2)], np.int32),
+		segmentParameters=np.array([(0., 1., 1., 0.), (0., 1 / 3, 1., 2 / 3)]), segmentArea=np.array([75e-6, 25e-6]), pointOpening=np.array([
+			1., 2., 3., 4.
+		]), pointSlip=np.array([5., 6., 7., 8.]), pointSigma=np.array([9., 10., 11., 12.]), pointTau=np.array([13., 14., 15., 16.]),
+		pointStatus=np.array([1, 2, 3, 3], np.uint8), pointDamage=np.array([1., 1., 0., 0.]), zoneStress=lambda: stress, cornerTriangles={
 			2: np.array([(8, 9, 10), (8, 10, 11)], np.int32)
 		}.get, planeStress=False, poisson=np.array([0.2, 0.3, 0.1]), normal=np.array([(0., 1.), (0.6, 0.8)])
 	)

@@ -76,7 +76,8 @@ def test_cantileverWithAWeightlessNeighbour():
 	"""A beam of 1 x 0.1 m at zones of 0.025 m, a block of 5 cm upon its end that weighs nothing: it bends as a beam does.
 
 	q L^4 / 8 E' I = 1.41e-4 m with E' = E / (1 - nu^2) in plane strain; shear adds q L^2 / 2 (5/6) G A = 1e-6 m. Constant-strain zones of a
-	quarter of the depth are within 15 % of that, and too stiff or, turned in cells of unlike diagonals, too soft. With edges left undivided it was 4.4e-6 m."""
+	quarter of the depth are within 15 % of that, and too stiff or, turned in cells of unlike diagonals, too soft. With edges left undivided it
+	was 4.4e-6 m."""
 	O.reset()
 	young, poisson, density, gravity, depth = 20e9, .2, 2000, 9.81, .1
 	O.materials.append(BlockMat(label='unit', young=young, poisson=poisson, density=density))

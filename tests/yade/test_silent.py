@@ -46,7 +46,9 @@ def thrown(v, start, size=0.1, gap=0.05):
 	O.run(start, True)
 	model.velocity[model.firstNode[1]:] = -v, 0
 	O.run(1, True)
-	total = lambda: sum(O.energy[name] for name in ('blockKinetic', 'blockZones', 'blockJoints', 'blockFriction', 'blockDamping') if name in O.energy.keys())
+	total = lambda: sum(
+		O.energy[name] for name in ('blockKinetic', 'blockZones', 'blockJoints', 'blockFriction', 'blockDamping') if name in O.energy.keys()
+	)
 	before = total()
 	O.run(int(2.5 * gap / v / O.dt), True)
 	return total() / before, model.fingerprint()
@@ -54,7 +56,8 @@ def thrown(v, start, size=0.1, gap=0.05):
 
 @pytest.mark.parametrize('v', [20, 40])
 def test_theFirstTouchIsInTime(v):
-	"""Whatever the step at which it starts. The energy is turned over twice, into strain and back: 1 % of that. (A contact that came late made 1.13 to 7.5.)"""
+	"""Whatever the step at which it starts. The energy is turned over twice, into strain and back: 1 % of that. (A contact that came late made
+	1.13 to 7.5.)"""
 	ratios = [thrown(v, start)[0] for start in (1, 4, 7)]
 	assert all(abs(ratio - 1) < 0.02 for ratio in ratios), ratios
 	assert max(ratios) - min(ratios) < 1e-9
@@ -257,14 +260,12 @@ def test_partsOfAnInteractionReplaced(what, words):
 
 # ---- lists of engines
 
-
 spheres = lambda: InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()])
 ofBlocks = lambda: InteractionLoop([Ig2_Block_Block_BlockGeom()], [Ip2_BlockMat_BlockMat_JointPhys()], [Law2_BlockGeom_JointPhys_MohrCoulomb()])
 
 
 @pytest.mark.parametrize(
-	'change, words',
-	[
+	'change, words', [
 		(lambda list: [spheres()] + list, ['InteractionLoop has no functors for blocks', 'interactions=False']),
 		(lambda list: [ofBlocks()] + list, ['InteractionLoop has functors for blocks beside BlockLoop']),
 		(lambda list: list + list, ['stands twice in O.engines']),

@@ -61,7 +61,7 @@ namespace {
 			throw std::runtime_error(
 				"somebody has put a force on " + named(model, i)
 				+ " through O.forces (addF, setPermF, an engine), whose grid points would not feel it: use BlockModel.traction, push or "
-			          "gravity");
+				  "gravity");
 	}
 
 	void requireJoints(const BlockModel& model)

@@ -29,7 +29,7 @@ const char* const followDoc
 	  "model "
 	  "in small displacement: no rate, damping or mass. All other loads act fully and stay; forces that engines put on rigid blocks' bodies are not known. "
 	  "Joints must have their properties (Mohr-Coulomb), from bond() or from a first step. It leaves the model in the state reached, from where time steps "
-          "go on at the group's full speed (a group's force: stays "
+	  "go on at the group's full speed (a group's force: stays "
 	  "as reached). "
 	  "group: name of a driven or pushed group, followed in the direction of its target, or index of a rigid block whose body has a prescribed velocity. "
 	  "It ends by whichever comes first: the force has fallen below drop (0: do not ask) of its largest value, after which peak=True goes back to that "

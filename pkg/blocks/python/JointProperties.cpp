@@ -194,7 +194,7 @@ void defineJoints(PythonModel& c)
 		 "tensionResidual [Pa], "
 		 "frictionAngle, frictionAngleResidual, dilationAngle [rad], dilationLimitSlip [m]; of joints that soften GfI, GfII [J/m2], lastingShare [-], "
 		 "dilationDecay [1/m], dilationPressure [Pa] and those of the cap, as in :yref:`JointMat`. Copies; :yref:`setJoints<BlockModel.setJoints>` "
-	         "changes "
+		 "changes "
 		 "them.")
 		.def("setJoints",
 	             py::raw_function(&setJoints, 1),

@@ -74,8 +74,8 @@ struct FreeContacts {
 
 	// ---- how far things have moved
 	std::vector<Real> sleepsUntil; ///< contact -> nothing of it touches before the paths of its two blocks add up to this; 0: to be looked at [m]
-	Odometer         odometer;
-	std::vector<int> waiting; ///< broken joints that will be released, in their order
+	Odometer          odometer;
+	std::vector<int>  waiting; ///< broken joints that will be released, in their order
 
 	static constexpr Real mayMove = 0.016; ///< of a mean edge, until edge pairs are looked for anew
 };

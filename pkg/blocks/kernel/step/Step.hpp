@@ -16,9 +16,9 @@ void sumForces(BlockAssembly&, bool account = false, int threads = 1);
 template <class Law> void computeForces(BlockAssembly& a, const Law& law, Real dt, bool account = false, int threads = 1)
 {
 	if (a.contacts.wanted) prepareContacts(a, dt); // who may touch soon: only where something moved far or broke
-	advanceJoints(a, law, account, threads);   // motion -> opening, slip -> stresses, states -> forces on edges
-	advanceContacts(a, dt, threads);           // the same for edges that are not bonded, or no more
-	sumForces(a, account, threads);            // edges, zones, loads -> every grid point, in a fixed order
+	advanceJoints(a, law, account, threads);       // motion -> opening, slip -> stresses, states -> forces on edges
+	advanceContacts(a, dt, threads);               // the same for edges that are not bonded, or no more
+	sumForces(a, account, threads);                // edges, zones, loads -> every grid point, in a fixed order
 }
 
 /// Forces -> velocities, displacements; groups first. What it turned over is complete only if `account` says so.
