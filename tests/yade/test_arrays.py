@@ -22,7 +22,7 @@ shapes = {
 names = [name for group in shapes for name in group.split()]
 indices = 'zoneNodes firstNode firstZone firstEdge blockMaterial edgeNodes segmentNodes segmentBlocks'.split()
 writable = ['displacement', 'velocity']
-copies = ['position', 'normal']
+copies = ['position', 'normal', 'pointDamage'] # worked out when asked for
 
 
 def test_shapesAsDocumented():
