@@ -44,12 +44,12 @@ length, brickHeight, thickness, mortarHeight = 0.2, 0.05, 0.05, 0.015 # [m]
 brick = dict(young=16.7e9, poisson=0.2, density=1900) # Table 4
 mortar = dict(young=2.974e9, poisson=0.2, density=3250)
 residualFriction = degrees(atan(experiments.residualFriction))
+measured = {name: softening.measured[name] for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII')}
 sets = { # all joints alike; angles in degrees
 	'paper': dict(kn=400e9, ks=200e9, cohesion=3e6, tension=1.5e6, friction=45., residualFriction=36., dilation=0., GfI=0., GfII=0.), # Table 5
 	'measured': dict(
 		friction=degrees(softening.measured['frictionAngle']), residualFriction=residualFriction, dilation=0.,
-		**{name: softening.measured[name]
-			for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII')}
+		**measured
 	),
 	'calibrated':
 	dict(kn=400e9, ks=200e9, cohesion=1.25e6, tension=0.5e6, friction=50., residualFriction=residualFriction, dilation=0., GfI=20., GfII=150.),
