@@ -13,7 +13,8 @@ constexpr Real dt = 1e-9; ///< so short that nothing goes anywhere
 /// A square of n x n Voronoi cells, every so many joints broken (0: none).
 BlockAssembly square(int n, int everyBroken = 0)
 {
-	BlockAssembly a = voronoi(1, 1, n, n, stone(), elasticJoint(1e12, 5e11), 1);
+	BlockAssembly a      = voronoi(1, 1, n, n, stone(), elasticJoint(1e12, 5e11), 1);
+	a.contacts.strangers = false; // as in a scene of which no script holds an array
 	if (everyBroken > 0) {
 		JointParams loose = elasticJoint(1e12, 5e11);
 		loose.cohesion = loose.tension = 0;

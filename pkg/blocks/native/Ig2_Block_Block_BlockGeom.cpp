@@ -44,7 +44,6 @@ bool Ig2_Block_Block_BlockGeom::go(
 	}
 	blocks::BlockAssembly& a = geom->model->assembly;
 	if (geom->pair >= 0) blocks::updateKinematics(a, blocks::jointsOf(a, geom->pair));
-	if (geom->contact >= 0) blocks::updateContact(a, geom->contact);
 	return true;
 }
 

@@ -31,8 +31,12 @@ namespace {
 		py::tuple     shape = columns == 1 ? py::make_tuple(items.size()) : py::make_tuple(items.size(), columns);
 		py::tuple     steps = columns == 1 ? py::make_tuple(sizeof(Item)) : py::make_tuple(sizeof(Item), sizeof(Number));
 		py::object    array = np::from_data(data, np::dtype::get_builtin<Number>(), shape, steps, self);
-		const bool    grows = py::extract<BlockModel&>(self)().firstBody < 0;
-		if (grows) array = array.attr("copy")();
+		BlockModel&   model = py::extract<BlockModel&>(self)();
+		const bool    grows = model.firstBody < 0;
+		if (grows)
+			array = array.attr("copy")();
+		else if (use == Use::state)
+			model.assembly.contacts.strangers = true; // whoever holds it may write at any time
 		if (grows || use == Use::result) array.attr("setflags")(false);
 		return array;
 	}

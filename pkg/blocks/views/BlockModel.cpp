@@ -211,7 +211,8 @@ void BlockModel::insert(bool interactions)
 		if (body && body->shape && dynamic_cast<const Block*>(body->shape.get()))
 			throw std::runtime_error("BlockModel.insert: the scene has blocks of another model already; one model holds all blocks of a scene");
 
-	size_t     rigid = 0;
+	assembly.contacts.strangers = false; // until a script asks for an array that it may write
+	size_t     rigid            = 0;
 	const auto self  = YADE_PTR_CAST<BlockModel>(shared_from_this());
 	for (int i = 0; i < assembly.blockCount(); ++i) {
 		auto       shape    = shared_ptr<Block>(new Block);

@@ -669,6 +669,19 @@ TEST(Tessellation, cellsAroundHolesAreCut)
 	}
 }
 
+// A hole with a notch, smaller than a short edge (as in case 58193 of seed 2026 of the fuzz). A wall cuts off a triangle of material in the notch, which
+// reaches along the hole without surrounding it.
+TEST(Tessellation, whatLiesInAHolesNotchIsNotRoundIt)
+{
+	const Polygon region { rectangle(0, 0, 1, 1), { reversed({ { 0.49, 0.49 }, { 0.51, 0.49 }, { 0.51, 0.51 }, { 0.5, 0.5 }, { 0.49, 0.51 } }) } };
+	for (Real mergeFraction : { 0.0, 0.1, 0.3 }) { // short edges: none; as long as the hole's shorter sides and more
+		auto o          = sized(0.4, 0);
+		o.seeds         = { { 0.5, 0.255 }, { 0.5, 0.755 } };
+		o.mergeFraction = mergeFraction;
+		expectTiling(region, tessellate(region, o), 0.4, "notch, " + std::to_string(mergeFraction));
+	}
+}
+
 // Two holes with edges on one line (case 4599 of seed 402 of the fuzz): flattening left a cell whose arm of no width lay along that line, and blocks
 // that overlap by rounding. No vertex of a cell lies on another of its edges.
 TEST(Tessellation, flatteningLeavesNoArms)

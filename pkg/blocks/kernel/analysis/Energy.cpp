@@ -117,10 +117,8 @@ namespace {
 			}
 		}
 		for (int i : a.contacts.order)
-			for (int e : a.state.contacts[i].active) {
-				const FourPoints& force = a.state.contacts[i].edges[e].force;
-				sum.contact += (force[0] + force[1]).lpNorm<1>();
-			}
+			for (int k = a.contacts.range[i].first; k < a.contacts.range[i].last; ++k)
+				sum.contact += (a.contacts.forces[k].force[0] + a.contacts.forces[k].force[1]).lpNorm<1>();
 		return sum;
 	}
 

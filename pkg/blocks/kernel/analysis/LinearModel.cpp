@@ -191,6 +191,7 @@ LinearModel linearise(const BlockAssembly& assembly, const Growth& growth, int g
 
 void displace(BlockAssembly& a, const LinearModel& m, const Vector& u, Real lambda)
 {
+	a.contacts.odometer.unseen = a.contacts.odometer.sinceLook = std::numeric_limits<Real>::infinity();
 	for (int block = 0; block < a.blockCount(); ++block)
 		if (a.mesh.firstZone[block] != a.mesh.firstZone[block + 1])
 			for (int dof = 2 * a.mesh.firstNode[block]; dof < 2 * a.mesh.firstNode[block + 1]; ++dof) {

@@ -86,11 +86,15 @@ namespace {
 					gap += walls.along(corner).norm();
 				for (; last < k + n && holeAlong(ring, last % n) == hole; ++last)
 					gap -= (d.position[ring[(last + 1) % n]] - d.position[ring[last % n]]).norm();
-				if (gap >= shortest) continue;
 				const Vec2 there = (d.position[ring[k]] + d.position[ring[last % n]]) / 2;
 				Vec2       away  = Vec2::Zero();
-				for (size_t m = k; m <= last; ++m)
+				Real       turns = 0; // twice the area that the way along the hole encloses: negative if the hole is within it
+				for (size_t m = k; m <= last; ++m) {
 					away += d.position[ring[m % n]] - there;
+					if (m < last) turns += cross(d.position[ring[m % n]] - there, d.position[ring[(m + 1) % n]] - there);
+				}
+				// A hole smaller than a short edge leaves no long gap, whoever touches it.
+				if (gap >= shortest || turns >= 0) continue;
 				Vec2 direction = forward;
 				for (const Vec2& other : { Vec2(-forward.y(), forward.x()), Vec2(-forward), Vec2(forward.y(), -forward.x()) })
 					if (other.dot(away) > direction.dot(away)) direction = other;

@@ -28,29 +28,39 @@ struct EdgeShape {
 	Real                depthLimit;  ///< depth at which the contact is lost [m]
 };
 
+/// A vector as two numbers: what the compiler makes wide.
+struct XY {
+	Real x, y;
+
+	operator Vec2() const { return { x, y }; }
+};
+using Corners = std::array<XY, 4>; ///< a0, a1, b0, b1
+
 /// Where two edges are with respect to each other.
 struct EdgeGeometry {
-	bool                active = false;                       ///< whether they touch; the rest counts only if they do
-	Vec2                eA { 0, 0 }, eB { 0, 0 }, t { 0, 0 }; ///< unit vectors
-	Real                invA, invB;                           ///< 1/length [1/m]
-	Real                c, bisector;                          ///< -e_A.e_B; |e_A - e_B|
-	std::array<Real, 2> x;                                    ///< lead of A's vertex over B's at either end [m]
-	std::array<Real, 2> lambda, slope;                        ///< share of A's vertex in the length's end, and its derivative [1/m]
-	std::array<Real, 2> mu, muSlope;                          ///< ... in the depth; derivative by x/r [-]
-	std::array<Real, 2> depthA, depthB;                       ///< of A's and B's vertices, not negative [m]
-	std::array<Real, 2> depth;                                ///< of the two ends [m]
-	Real                y;                                    ///< overlap; negative if there is none [m]
-	Real                length, lengthSlope;                  ///< L, dL/dy
-	Real                sum;                                  ///< d0^2 + d1^2 [m2]
-	Real                h, hSlope, q;                         ///< validity, dh/dq
-	std::array<Real, 4> reach;                                ///< X of the corners [m]
-	Real                area;                                 ///< of each end, per thickness: normal stiffness / kn [m]
+	Real                touches;             ///< 1 or 0; the rest counts only if it is 1
+	XY                  eA, eB, t;           ///< unit vectors
+	Real                invA, invB;          ///< 1/length [1/m]
+	Real                c, bisector;         ///< -e_A.e_B; |e_A - e_B|
+	std::array<Real, 2> x;                   ///< lead of A's vertex over B's at either end [m]
+	std::array<Real, 2> lambda, slope;       ///< share of A's vertex in the length's end, and its derivative [1/m]
+	std::array<Real, 2> mu, muSlope;         ///< ... in the depth; derivative by x/r [-]
+	std::array<Real, 2> depthA, depthB;      ///< of A's and B's vertices, not negative [m]
+	std::array<Real, 2> depth;               ///< of the two ends [m]
+	Real                y;                   ///< overlap; negative if there is none [m]
+	Real                length, lengthSlope; ///< L, dL/dy
+	Real                sum;                 ///< d0^2 + d1^2 [m2]
+	Real                h, hSlope, q;        ///< validity, dh/dq
+	std::array<Real, 4> reach;               ///< X of the corners [m]
+	Real                area;                ///< of each end, per thickness: normal stiffness / kn [m]
+
+	bool active() const { return touches > 0; }
 };
 
 using FourPoints = std::array<Vec2, 4>; ///< at a0, a1, b0, b1
 
 /// The geometry of two edges at points a0, a1, b0, b1.
-void edgeGeometry(const FourPoints&, const EdgeShape&, EdgeGeometry&);
+EdgeGeometry edgeGeometry(const FourPoints&, const EdgeShape&);
 
 /// Edge A moved out of its block by `uplift`: what a joint has dilated before its edges became a free pair stays between them.
 FourPoints raised(const FourPoints&, Real uplift);
@@ -75,9 +85,9 @@ void addNormalForces(const FourPoints&, const EdgeShape&, const EdgeGeometry&, R
 /// The slip is the relative displacement of B's point, along B where A's vertex is the end and along A where B's is, in the
 /// direction of e_A; the edges' turning is taken off, so that a rigid motion of both makes no slip.
 struct EdgeEnd {
-	Vec2       onA, onB;  ///< [m]
-	Vec2       direction; ///< of positive slip of B
-	FourPoints slipGradient;
+	XY      onA, onB;  ///< [m]
+	XY      direction; ///< of positive slip of B
+	Corners slipGradient;
 };
 EdgeEnd edgeEnd(const FourPoints&, const EdgeGeometry&, int k);
 

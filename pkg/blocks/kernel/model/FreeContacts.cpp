@@ -60,11 +60,13 @@ Real meanEdge(const BlockAssembly& a, int block)
 void sortContacts(BlockAssembly& a)
 {
 	FreeContacts& f = a.contacts;
-	f.sleepsUntil.assign(a.state.contacts.size(), 0);
 	f.order.clear();
 	for (int i = 0; i < int(a.state.contacts.size()); ++i)
 		if (a.state.contacts[i].block[0] >= 0) f.order.push_back(i);
 	std::sort(f.order.begin(), f.order.end(), [&](int i, int j) { return a.state.contacts[i].block < a.state.contacts[j].block; });
+	f.sleep.clear();
+	for (int i : f.order)
+		f.sleep.push_back({ a.state.contacts[i].block, 0 });
 	f.ofBlock.assign(2 * f.order.size(), 0);
 	f.firstOfBlock.assign(f.order.empty() ? 0 : a.blockCount() + 1, 0);
 	for (int i : f.order)
@@ -93,7 +95,6 @@ void nameEdges(const BlockAssembly& a, EdgePair& e)
 	e.shape.depthLimit  = std::min(f.depthLimit[a.blockOfNode(A[0])], f.depthLimit[a.blockOfNode(B[0])]);
 }
 
-/// Until the next updateContact, which shall look at all pairs.
 void forgetActive(FreeContact& contact)
 {
 	contact.allRestUntil = 0;
@@ -101,7 +102,20 @@ void forgetActive(FreeContact& contact)
 	contact.restsUntil.assign(contact.edges.size(), 0);
 	contact.active.clear();
 	contact.active.reserve(contact.edges.size()); // nothing is allocated inside a step
-	contact.geometry.resize(contact.edges.size());
+}
+
+void placeForces(BlockAssembly& a)
+{
+	FreeContacts& f    = a.contacts;
+	int           room = 0;
+	for (Sleep& s : f.sleep)
+		s.until = 0;
+	f.range.resize(a.state.contacts.size());
+	for (int i : f.order) {
+		f.range[i] = { room, room };
+		room += int(a.state.contacts[i].edges.size());
+	}
+	f.forces.resize(room);
 }
 
 void rebuildContacts(BlockAssembly& a)
@@ -116,6 +130,7 @@ void rebuildContacts(BlockAssembly& a)
 			nameEdges(a, e);
 		forgetActive(c);
 	}
+	placeForces(a);
 }
 
 } // namespace blocks

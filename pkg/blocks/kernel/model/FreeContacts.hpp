@@ -20,31 +20,52 @@ struct EdgePair {
 	std::array<Real, 2> slip { 0, 0 };  ///< elastic slip of the two ends: tau / ks [m]
 	std::array<Real, 2> sigma { 0, 0 }; ///< normal stress of the ends, tension positive [Pa]
 	std::array<Real, 2> tau { 0, 0 };   ///< shear stress; positive drags the first block along e_A [Pa]
-	Real                area   = 0;     ///< of each end, in the step of the stresses [m2]
-	Real                uplift = 0;     ///< by which the joint had dilated that became this pair; it stays [m]
-	FourPoints          force;          ///< on the four nodes; meaningful if the pair is active [N]
+	Real                area      = 0;  ///< of each end, in the step of the stresses [m2]
+	Real                uplift    = 0;  ///< by which the joint had dilated that became this pair; it stays [m]
+	Real                potential = 0;  ///< of the normal stresses, per kn and thickness, while the edges touch [m3]
 	EdgeShape           shape;
-
-	bool active() const { return touching; }
 };
 
 /// All that happens between two blocks, apart from their bonds.
 struct FreeContact {
-	std::array<int, 2>        block { -1, -1 }; ///< first < second; -1: an empty slot
-	Real                      allRestUntil = 0; ///< the least of restsUntil of those that do not touch [m]
-	std::vector<int>          active;           ///< those of `edges` that touch, as of the last updateContact
-	std::vector<EdgePair>     edges;            ///< sorted by edge
-	std::vector<EdgeGeometry> geometry;         ///< of each of `active`, and room for all that might be
-	std::vector<Real>         restsUntil;       ///< of each of `edges`: it does not touch before the paths of the two blocks add up to this [m]
-	unsigned                  looks    = 0;     ///< since its pairs were found
-	Real                      friction = 0;     ///< dissipated so far [J]
-	JointParams               joint;            ///< residual values count; kn = 0 until they are known
+	std::array<int, 2>    block { -1, -1 }; ///< first < second; -1: an empty slot
+	Real                  allRestUntil = 0; ///< the least of restsUntil of those that do not touch [m]
+	std::vector<int>      active;           ///< those of `edges` that touch, as of the last step
+	std::vector<EdgePair> edges;            ///< sorted by edge
+	std::vector<Real>     restsUntil;       ///< of each of `edges`: it does not touch before the paths of the two blocks add up to this [m]
+	unsigned              looks    = 0;     ///< since its pairs were found
+	Real                  friction = 0;     ///< dissipated so far [J]
+	JointParams           joint;            ///< residual values count; kn = 0 until they are known
 };
 
-/// How far blocks that have contacts have gone. A vertex moves between two moments by no more than its block's path has grown.
+/// A contact of which nothing touches.
+struct Sleep {
+	std::array<int, 2> block;
+	Real               until = 0; ///< nothing touches before the paths of the two blocks add up to this; 0: to be looked at [m]
+};
+
+/// What the edges of a pair do to their grid points.
+struct PairForce {
+	std::array<int, 4>  node;  ///< a0, a1, b0, b1
+	std::array<Vec2, 4> force; ///< [N]
+};
+
+/// Where the forces of a contact are: room for all its pairs, of which those that touch come first.
+struct ForceRange {
+	int first = 0, last = 0;
+};
+
+/// How far blocks that have contacts have gone. Between two moments at which paths were brought up to date, a vertex moves by no more than its block's path
+/// has grown.
 struct Odometer {
 	std::vector<Vec2> seenAt; ///< of grid points, displacements up to which the paths count [m]
-	std::vector<Real> path;   ///< of blocks: the largest step of any of their grid points, summed over the steps [m]
+	std::vector<Real> path;   ///< of blocks: the largest move of any of their grid points, summed [m]
+
+	// ---- what the velocities say since then, for any grid point and along either axis
+	int  steps     = 0; ///< since the paths were brought up to date
+	Real unseen    = 0; ///< it may have gone this far since then [m]
+	Real sinceLook = 0; ///< ... since neighbours were last looked for [m]
+	Real fastest   = 0; ///< largest velocity in the last step [m/s]
 };
 
 /// When neighbours were last looked for. It decides which contacts there are, and so masses; empty without general contact.
@@ -56,15 +77,20 @@ struct ContactMemory {
 
 /// Who may touch whom. All of it follows from the state.
 struct FreeContacts {
-	bool wanted  = false; ///< whether the scene has general contact
-	bool started = false; ///< whether anything below is known
-	long version = 0;     ///< grows whenever contacts come, go or change their stiffness
-	long looks   = 0;     ///< how often neighbours were looked for
+	bool wanted    = false; ///< whether the scene has general contact
+	bool started   = false; ///< whether anything below is known
+	bool strangers = true;  ///< whether others than integrate() may move grid points or change velocities; then all are compared in every step
+	long version   = 0;     ///< grows whenever contacts come, go or change their stiffness
+	long looks     = 0;     ///< how often neighbours were looked for
 
 	// ---- contacts by blocks
 	std::vector<int> order;                 ///< contacts sorted by blocks
 	std::vector<int> firstOfBlock, ofBlock; ///< block -> its contacts, sorted by the other block; empty without contacts
 	std::vector<int> blocksInContact;       ///< blocks that have any
+
+	// ---- forces of those pairs that touch
+	std::vector<ForceRange> range;  ///< by contact
+	std::vector<PairForce>  forces; ///< all of them
 
 	// ---- shapes, from the reference positions
 	std::vector<Real> sharpness, rounding;  ///< of grid points on outlines, see EdgeShape
@@ -73,9 +99,9 @@ struct FreeContacts {
 	Real              leastDepth = 0;       ///< the least of depthLimit [m]
 
 	// ---- how far things have moved
-	std::vector<Real> sleepsUntil; ///< contact -> nothing of it touches before the paths of its two blocks add up to this; 0: to be looked at [m]
-	Odometer          odometer;
-	std::vector<int>  waiting; ///< broken joints that will be released, in their order
+	std::vector<Sleep> sleep; ///< of the contacts in `order`
+	Odometer           odometer;
+	std::vector<int>   waiting; ///< broken joints that will be released, in their order
 
 	static constexpr Real mayMove = 0.016; ///< of a mean edge, until edge pairs are looked for anew
 };
@@ -91,8 +117,11 @@ void sortContacts(BlockAssembly&);
 /// The nodes and shape of a pair of edges, from its two edges.
 void nameEdges(const BlockAssembly&, EdgePair&);
 
-/// Which pairs touch is not known any more; the next updateContact looks at all of them.
+/// Which pairs touch is not known any more; the next step looks at all of them.
 void forgetActive(FreeContact&);
+
+/// Makes room for the forces of all contacts; again whenever pairs have come or gone. Nothing touches, and nothing sleeps, until the next step.
+void placeForces(BlockAssembly&);
 
 /// Computes again what is not saved; the next step looks for neighbours anew.
 void rebuildContacts(BlockAssembly&);

@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/kernel/Wide.hpp>
 #include <blocks/kernel/step/CentralDifference.hpp>
+#include <blocks/kernel/step/Largest.hpp>
 #include <cmath>
 
 namespace blocks {
@@ -11,11 +12,13 @@ namespace {
 		Real kinetic      = 0;                    ///< [J]
 		Real viscousPower = 0;                    ///< sum of m v^2 [J], times c a power
 		Real kineticTurn  = 0;                    ///< sum over degrees of freedom of |change of kinetic energy| [J]
+		Real fastest      = 0;                    ///< largest velocity, where contacts ask for it [m/s]
 
 		Sums& operator+=(const Sums& o)
 		{
 			dampingBefore += o.dampingBefore, dampingAfter += o.dampingAfter, kinetic += o.kinetic, viscousPower += o.viscousPower,
 				kineticTurn += o.kineticTurn;
+			if (!(o.fastest <= fastest)) fastest = o.fastest; // what is no number stays
 			return *this;
 		}
 	};
@@ -140,7 +143,7 @@ namespace {
 	}
 
 	/// Ranges of a fixed length, summed in their order: the result does not know how many threads there were.
-	Sums advanceAll(Advance advance, const Arrays& a, int count, const Rates& r, [[maybe_unused]] int threads)
+	Sums advanceAll(Advance advance, const Arrays& a, int count, const Rates& r, bool follow, [[maybe_unused]] int threads)
 	{
 		constexpr int                         range  = 4096;
 		const int                             ranges = (count + range - 1) / range;
@@ -148,8 +151,11 @@ namespace {
 		partial.resize(ranges);
 		Sums* const part = partial.data();
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-		for (int i = 0; i < ranges; ++i)
-			part[i] = advance(a, i * range, std::min(count, (i + 1) * range), r);
+		for (int i = 0; i < ranges; ++i) {
+			const int first = i * range, last = std::min(count, first + range);
+			part[i] = advance(a, first, last, r);
+			if (follow) part[i].fastest = largest(a.v + first, last - first);
+		}
 		Sums total;
 		for (const Sums& s : partial)
 			total += s;
@@ -207,7 +213,10 @@ StepWork integrate(BlockAssembly& a, const Damping& damping, Real dt, Real time,
 	const Arrays arrays {
 		a.state.displacement.data()->data(), a.state.velocity.data()->data(), a.forces.nodal.data()->data(), a.supports.mobility.data()->data()
 	};
-	const Sums sums = advanceAll(advanceOf(damping.kind, account), arrays, 2 * a.nodeCount(), rates, threads);
+	Odometer&  odometer = a.contacts.odometer;
+	const bool follow   = a.contacts.started && !a.contacts.strangers;
+	const Sums sums     = advanceAll(advanceOf(damping.kind, account), arrays, 2 * a.nodeCount(), rates, follow, threads);
+	if (follow) odometer.fastest = sums.fastest, odometer.unseen += sums.fastest * dt, odometer.sinceLook += sums.fastest * dt;
 	if (damping.kind == Damping::Kind::adaptive) c = Damping::adapted(c, c * sums.viscousPower, sums.kineticTurn / dt, dt);
 	work.dampingBefore += sums.dampingBefore * dt;
 	work.dampingAfter += sums.dampingAfter * dt;

@@ -1,8 +1,8 @@
 // yade-blocks, GPL-2.0-or-later
 #include <CGAL/box_intersection_d.h>
 #include <algorithm>
-#include <blocks/kernel/Wide.hpp>
 #include <blocks/kernel/step/ContactSearch.hpp>
+#include <blocks/kernel/step/Largest.hpp>
 #include <limits>
 #include <numeric>
 
@@ -180,24 +180,6 @@ namespace {
 		return square;
 	}
 
-	/// How many of `count` numbers differ from others by more than `limit`; what is no number differs.
-	WIDE std::int64_t countMoved(const Real* __restrict now, const Real* __restrict then, int count, Real limit)
-	{
-		std::int64_t moved = 0;
-		for (int i = 0; i < count; ++i)
-			moved += !(std::abs(now[i] - then[i]) <= limit);
-		return moved;
-	}
-
-	/// Whether a number is above the limit in size, or none.
-	WIDE std::int64_t countAbove(const Real* __restrict now, int count, Real limit)
-	{
-		std::int64_t above = 0;
-		for (int i = 0; i < count; ++i)
-			above += !(std::abs(now[i]) <= limit);
-		return above;
-	}
-
 	/// Mean velocity of a block's grid points, and the most by which one of them differs from another block's mean [m/s].
 	Vec2 meanVelocity(const BlockAssembly& a, int block)
 	{
@@ -266,6 +248,23 @@ namespace {
 			}
 			f.odometer.path[b] += std::sqrt(farthest);
 		}
+		f.odometer.unseen = 0, f.odometer.steps = 0;
+	}
+
+	/// Paths are brought up to date every so many steps. In between, only the fastest grid point counts.
+	constexpr int stepsUnseen = 8;
+
+	/// Before blocks get contacts that had none: their paths count from here.
+	void followAll(BlockAssembly& a)
+	{
+		followMotion(a);
+		a.contacts.odometer.seenAt = a.state.displacement;
+	}
+
+	void followContacts(BlockAssembly& a)
+	{
+		FreeContacts& f = a.contacts;
+		if (f.strangers || ++f.odometer.steps >= stepsUnseen) followMotion(a);
 	}
 
 	/// A block that has gone this share of its limit is looked at, when anybody is.
@@ -282,6 +281,7 @@ namespace {
 		rebuildContacts(a);
 		f.odometer.path.assign(a.blockCount(), 0);
 		f.odometer.seenAt = a.state.displacement;
+		f.odometer.unseen = 0, f.odometer.sinceLook = std::numeric_limits<Real>::infinity();
 		if (!known) a.state.search.detectedAt = a.state.search.lookedAt = a.state.displacement;
 		f.waiting.clear();
 		for (int i = 0; i < a.joints.count(); ++i)
@@ -337,10 +337,11 @@ namespace {
 				a.state.search.mayGo = std::min(a.state.search.mayGo, limit - went);
 		}
 		a.state.search.lookedAt = a.state.displacement;
+		f.odometer.sinceLook    = 0;
 		++f.looks;
 		if (moved.empty()) return;
+		followAll(a);
 
-		f.sleepsUntil.assign(a.state.contacts.size(), 0);
 		std::vector<char> hasMoved(a.blockCount(), false);
 		for (int b : moved)
 			hasMoved[b] = true;
@@ -372,6 +373,7 @@ namespace {
 			made.edges        = std::move(edges[i]);
 			forgetActive(made);
 		}
+		placeForces(a);
 		if (changed) ++f.version;
 	}
 
@@ -408,11 +410,12 @@ namespace {
 			} else
 				f.waiting[kept++] = joint;
 		if (now.empty()) return;
+		followAll(a);
 		f.waiting.resize(kept);
 		makeContacts(a, blocks);
 		for (size_t i = 0; i < now.size(); ++i)
 			release(a, now[i], contactOf(a, blocks[i][0], blocks[i][1]), isFirst[i]);
-		f.sleepsUntil.assign(a.state.contacts.size(), 0);
+		placeForces(a);
 		a.listSides();
 		++f.version;
 	}
@@ -454,14 +457,16 @@ void prepareContacts(BlockAssembly& a, Real dt)
 	if (!f.started && !start(a))
 		look(a, true);
 	else {
-		followMotion(a);
+		followContacts(a);
 		const Real perAxis = a.state.search.mayGo * std::sqrt(Real(0.5)); // two axes, each by this much
-		if (countMoved(a.state.displacement.data()->data(), a.state.search.lookedAt.data()->data(), 2 * a.nodeCount(), perAxis) > 0) look(a, false);
+		if (f.strangers || !(f.odometer.sinceLook <= perAxis))
+			f.odometer.sinceLook = farthest(a.state.displacement.data()->data(), a.state.search.lookedAt.data()->data(), 2 * a.nodeCount());
+		if (!(f.odometer.sinceLook <= perAxis)) look(a, false);
 	}
 	collectBroken(a);
 	if (!f.waiting.empty()) releaseBroken(a);
-	const Real perAxis = mostAStep * f.leastDepth * std::sqrt(Real(0.5));
-	if (!first && dt > 0 && countAbove(a.state.velocity.data()->data(), 2 * a.nodeCount(), perAxis / dt) > 0) refuseTunnelling(a, dt);
+	if (f.strangers) f.odometer.fastest = largest(a.state.velocity.data()->data(), 2 * a.nodeCount());
+	if (!first && dt > 0 && !(f.odometer.fastest * dt <= mostAStep * f.leastDepth * std::sqrt(Real(0.5)))) refuseTunnelling(a, dt);
 }
 
 } // namespace blocks

@@ -1,8 +1,9 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
-#include <blocks/kernel/Wide.hpp>
+#include <blocks/kernel/laws/EdgeContactLaw.hpp>
 #include <blocks/kernel/step/ContactSearch.hpp>
 #include <blocks/kernel/step/Contacts.hpp>
+#include <blocks/kernel/step/EdgeBatch.hpp>
 #include <limits>
 
 namespace blocks {
@@ -14,36 +15,222 @@ namespace {
 	/// Of so many looks at a contact one measures how far its pairs are from touching. No result depends on it.
 	constexpr int measuredLook = 8;
 
-	/// Asks the memory for what the next step of a contact reads.
-	void fetch(const FreeContact& c)
+	/// What the paths of two blocks add up to, at least and at most: they may have gone on since they were brought up to date [m].
+	struct Paths {
+		Real least, most;
+	};
+	Paths pathsOf(const BlockAssembly& a, const std::array<int, 2>& block)
 	{
-		for (int i : c.active) {
-			const char* edge = reinterpret_cast<const char*>(&c.edges[i]);
-			for (size_t line = 0; line < sizeof(EdgePair); line += 64)
-				__builtin_prefetch(edge + line);
-		}
+		const Odometer& o    = a.contacts.odometer;
+		const Real      path = o.path[block[0]] + o.path[block[1]], unseen = 2 * std::sqrt(Real(2)) * o.unseen; // two blocks, two axes
+		return { path - unseen, path + unseen };
 	}
 
-	/// The two blocks of a contact together [m].
-	Real pathOf(const BlockAssembly& a, const FreeContact& c) { return a.contacts.odometer.path[c.block[0]] + a.contacts.odometer.path[c.block[1]]; }
+	FourPoints points(const Corners& c) { return { c[0], c[1], c[2], c[3] }; }
+	Corners corners(const FourPoints& p) { return { { { p[0].x(), p[0].y() }, { p[1].x(), p[1].y() }, { p[2].x(), p[2].y() }, { p[3].x(), p[3].y() } } }; }
 
-	/// Relative to where a0 was without stress, so that they are exact far from the origin too [m].
-	FourPoints corners(const BlockAssembly& a, const EdgePair& e)
+	/// The corners of what touches, relative to where a0 was without stress, so that they are exact far from the origin too [m].
+	ALWAYS Corners raisedCorners(const BlockAssembly& a, const EdgePair& e)
 	{
-		const auto& X = a.mesh.reference;
-		const auto& u = a.state.displacement;
+		const Vec2 *X = a.mesh.reference.data(), *u = a.state.displacement.data();
 		const Vec2& o = X[e.node[0]];
-		return { u[e.node[0]], X[e.node[1]] - o + u[e.node[1]], X[e.node[2]] - o + u[e.node[2]], X[e.node[3]] - o + u[e.node[3]] };
+		Corners     c;
+		c[0] = { u[e.node[0]].x(), u[e.node[0]].y() };
+		eachOf<3>([&](auto k) INLINE {
+			const int n = e.node[k + 1];
+			c[k + 1]    = { X[n].x() - o.x() + u[n].x(), X[n].y() - o.y() + u[n].y() };
+		});
+		return e.uplift > 0 ? corners(raised(points(c), e.uplift)) : c;
 	}
 
-	/// The corners of what touches.
-	FourPoints raisedCorners(const BlockAssembly& a, const EdgePair& e)
+	/// ... and how fast they move, for these corners [m/s].
+	ALWAYS Corners raisedVelocities(const BlockAssembly& a, const EdgePair& e, const Corners& x)
 	{
-		const FourPoints x = corners(a, e);
-		return e.uplift > 0 ? raised(x, e.uplift) : x;
+		const Vec2* v = a.state.velocity.data();
+		Corners     c;
+		eachOf<4>([&](auto k) INLINE { c[k] = { v[e.node[k]].x(), v[e.node[k]].y() }; });
+		return e.uplift > 0 ? corners(raisedVelocity(points(x), e.uplift, points(c))) : c;
 	}
 
 	Real shearEnergy(const FreeContact& c, const EdgePair& e) { return c.joint.ks / 2 * e.area * (e.slip[0] * e.slip[0] + e.slip[1] * e.slip[1]); }
+
+	/// So many contacts are in work together, whatever the number of threads.
+	constexpr int atOnce = 256;
+
+	/// A few contacts on their way through a step. Pairs that may touch are collected, worked on side by side, and told what came out.
+	class Work {
+	public:
+		Work(BlockAssembly& assembly, Real stepLength)
+			: a(assembly)
+			, dt(stepLength)
+		{
+		}
+
+		/// Contacts at places [first, last) of the order, at most atOnce of them.
+		void run(int first, int last)
+		{
+			const FreeContacts& f = a.contacts;
+			for (int place = first; place < last; ++place)
+				if (const Sleep& s = f.sleep[place]; !(pathsOf(a, s.block).most < s.until)) awake[awakeCount++] = { f.order[place], place, 0 };
+			for (int i = -farAhead; i < awakeCount; ++i) {
+				if (i + farAhead < awakeCount) fetchContact(awake[i + farAhead].contact);
+				if (i + ahead >= 0 && i + ahead < awakeCount) fetchPairs(awake[i + ahead].contact);
+				if (i + near >= 0 && i + near < awakeCount) fetchCorners(awake[i + near].contact);
+				if (i >= 0) enter(i);
+			}
+			leave();
+		}
+
+		/// One contact, whether it sleeps or not.
+		void runOne(int contact)
+		{
+			awake[awakeCount++] = { contact, -1, 0 };
+			enter(0);
+			leave();
+		}
+
+	private:
+		// contacts lie all over the memory: what comes soon is fetched early, so many contacts ahead
+		static constexpr int farAhead = 12, ahead = 7, near = 3;
+
+		struct Awake {
+			int contact, place, touching; ///< place: in the order; touching: pairs, so far
+		};
+
+		BlockAssembly&            a;
+		const Real                dt;
+		std::array<Awake, atOnce> awake;
+		int                       awakeCount = 0;
+		EdgeBatch                 batch;
+
+		template <class T> static void fetch(const T& what)
+		{
+			for (size_t line = 0; line < sizeof(T); line += 64)
+				__builtin_prefetch(reinterpret_cast<const char*>(&what) + line);
+		}
+		void fetchContact(int contact) const { fetch(a.state.contacts[contact]); }
+		void fetchPairs(int contact) const
+		{
+			const FreeContact& c = a.state.contacts[contact];
+			for (int pair : c.active)
+				fetch(c.edges[pair]);
+		}
+		void fetchCorners(int contact) const
+		{
+			const FreeContact& c = a.state.contacts[contact];
+			for (int pair : c.active)
+				for (int corner : { 0, 2 }) {
+					const int n = c.edges[pair].node[corner]; // the other end of the edge is next to it more often than not
+					fetch(a.state.displacement[n]), fetch(a.state.velocity[n]), fetch(a.mesh.reference[n]);
+				}
+		}
+
+		/// What all of them come to.
+		void leave()
+		{
+			flush();
+			for (int i = 0; i < awakeCount; ++i) {
+				FreeContact& c = a.state.contacts[awake[i].contact];
+				c.active.resize(awake[i].touching);
+				ForceRange& range = a.contacts.range[awake[i].contact];
+				range.last        = range.first + awake[i].touching;
+				if (awake[i].place >= 0) a.contacts.sleep[awake[i].place].until = c.active.empty() ? c.allRestUntil : 0;
+			}
+			awakeCount = 0;
+		}
+
+		/// Looks at those pairs of a contact that may touch: those that do, and those whose rest is over.
+		void enter(int i)
+		{
+			FreeContact& c    = a.state.contacts[awake[i].contact];
+			const Real   path = pathsOf(a, c.block).most;
+			++c.looks;
+			if (path < c.allRestUntil) { // only those that touch may have changed
+				for (size_t k = 0; k < c.active.size(); ++k)
+					look(i, c, c.active[k]);
+				return;
+			}
+			c.active.resize(c.edges.size()); // its capacity; the first ones are overwritten by those that touch
+			c.allRestUntil = std::numeric_limits<Real>::infinity();
+			for (int k = 0; k < int(c.edges.size()); ++k)
+				if (path < c.restsUntil[k])
+					c.allRestUntil = std::min(c.allRestUntil, c.restsUntil[k]);
+				else
+					look(i, c, k);
+		}
+
+		/// Puts a pair into the batch unless it plainly does not touch, and did not.
+		void look(int i, FreeContact& c, int pair)
+		{
+			const EdgePair& e = c.edges[pair];
+			const Corners   x = raisedCorners(a, e);
+			if (!e.touching && !(e.area > 0) && !(edgeDepths(x).touch() > 0)) return rest(c, pair, x);
+
+			const int lane      = batch.count++;
+			batch.contact[lane] = i, batch.pair[lane] = pair;
+			const Corners v = raisedVelocities(a, e, x);
+			eachOf<4>([&](auto n) INLINE {
+				batch.px[n][lane] = x[n].x, batch.py[n][lane] = x[n].y;
+				batch.vx[n][lane] = v[n].x, batch.vy[n][lane] = v[n].y;
+				batch.sharpness[n][lane] = e.shape.sharpness[n];
+			});
+			eachOf<2>([&](auto k) INLINE {
+				batch.rounding[k][lane] = e.shape.rounding[k], batch.farRounding[k][lane] = e.shape.farRounding[k];
+				batch.slip[k][lane] = e.slip[k];
+			});
+			batch.depthLimit[lane] = e.shape.depthLimit, batch.area[lane] = e.area;
+			batch.kn[lane] = c.joint.kn, batch.ks[lane] = c.joint.ks;
+			batch.cohesion[lane] = c.joint.cohesionResidual, batch.tanPhi[lane] = c.joint.tanPhiResidual;
+			if (batch.count == EdgeBatch::size) flush();
+		}
+
+		/// A pair that does not touch: until where it need not be looked at.
+		void rest(FreeContact& c, int pair, const Corners& x)
+		{
+			EdgePair& e = c.edges[pair];
+			if (e.touching || e.area > 0) { // they have parted
+				c.friction += shearEnergy(c, e);
+				e.slip = e.sigma = e.tau = { 0, 0 };
+				e.area                   = 0;
+			}
+			e.touching         = false;
+			c.restsUntil[pair] = pathsOf(a, c.block).least;
+			if (c.looks % measuredLook == 1) { // pairs at one corner have no such distance: asking for it costs more than looking again
+				const FourPoints p     = points(x);
+				const Real       lever = 1 + 2 * e.uplift / (p[1] - p[0]).norm(); // what is raised moves more where the edge turns
+				c.restsUntil[pair] += roundingShare * freeDistance(p, e.shape) / lever;
+			}
+			c.allRestUntil = std::min(c.allRestUntil, c.restsUntil[pair]);
+		}
+
+		/// Works on what is in the batch and tells the pairs.
+		void flush()
+		{
+			if (batch.count == 0) return;
+			advanceEdges(batch, a.thickness, dt);
+			for (int lane = 0; lane < batch.count; ++lane) {
+				Awake&       of = awake[batch.contact[lane]];
+				FreeContact& c  = a.state.contacts[of.contact];
+				const int    i  = batch.pair[lane];
+				EdgePair&    e  = c.edges[i];
+				if (!(batch.touches[lane] > 0)) {
+					rest(c, i, raisedCorners(a, e));
+					continue;
+				}
+				for (int k : { 0, 1 })
+					e.slip[k] = batch.slip[k][lane], e.sigma[k] = batch.sigma[k][lane], e.tau[k] = batch.tau[k][lane];
+				e.area = batch.area[lane], e.potential = batch.potential[lane], e.touching = true;
+				c.friction += batch.friction[lane];
+				PairForce& on = a.contacts.forces[a.contacts.range[of.contact].first + of.touching];
+				on.node       = e.node;
+				for (int n = 0; n < 4; ++n)
+					on.force[n] = { batch.fx[n][lane], batch.fy[n][lane] };
+				if (e.uplift > 0) lowerForces(points(raisedCorners(a, e)), e.uplift, on.force);
+				c.active[of.touching++] = i;
+			}
+			batch.count = 0;
+		}
+	};
 
 } // namespace
 
@@ -55,120 +242,33 @@ void setContactJoint(BlockAssembly& a, int contact, const JointParams& joint)
 	++a.contacts.version;
 }
 
-WIDE void updateContact(BlockAssembly& a, int contact)
-{
-	FreeContact& c    = a.state.contacts[contact];
-	const Real   path = pathOf(a, c);
-	// Pairs at one corner have no distance that they could rest for: asking for it costs more than looking again.
-	const bool measures = c.looks++ % measuredLook == 0;
-
-	/// Whether a pair touches, and what it is like if it does.
-	auto look = [&](int i, EdgeGeometry& g) {
-		EdgePair&        e = c.edges[i];
-		const FourPoints x = raisedCorners(a, e);
-		edgeGeometry(x, e.shape, g);
-		if (!g.active) {
-			if (e.touching || e.area > 0) { // they have parted
-				c.friction += shearEnergy(c, e);
-				e.slip = e.sigma = e.tau = { 0, 0 };
-				e.area                   = 0;
-			}
-			c.restsUntil[i] = path;
-			if (measures) {
-				const Real lever = 1 + 2 * e.uplift / (x[1] - x[0]).norm(); // what is raised moves more where the edge turns
-				c.restsUntil[i] += roundingShare * freeDistance(x, e.shape) / lever;
-			}
-			c.allRestUntil = std::min(c.allRestUntil, c.restsUntil[i]);
-		}
-		return e.touching = g.active;
-	};
-
-	if (path < c.allRestUntil) { // only those that touch may have changed
-		int kept = 0;
-		for (int i : c.active)
-			if (look(i, c.geometry[kept])) c.active[kept++] = i;
-		c.active.resize(kept);
-		return;
-	}
-	c.active.clear();
-	c.allRestUntil = std::numeric_limits<Real>::infinity();
-	for (int i = 0; i < int(c.edges.size()); ++i)
-		if (path < c.restsUntil[i])
-			c.allRestUntil = std::min(c.allRestUntil, c.restsUntil[i]);
-		else if (look(i, c.geometry[c.active.size()]))
-			c.active.push_back(i);
-}
-
-WIDE void advanceContact(BlockAssembly& a, int contact, Real dt)
-{
-	FreeContact&       c     = a.state.contacts[contact];
-	const JointParams& joint = c.joint;
-	for (int i = 0; i < int(c.active.size()); ++i) {
-		EdgePair&           e = c.edges[c.active[i]];
-		const EdgeGeometry& g = c.geometry[i];
-		const FourPoints    x = raisedCorners(a, e);
-		FourPoints          v { a.state.velocity[e.node[0]], a.state.velocity[e.node[1]], a.state.velocity[e.node[2]], a.state.velocity[e.node[3]] };
-		if (e.uplift > 0) v = raisedVelocity(x, e.uplift, v);
-		const Real area = a.thickness * g.area;
-		e.force.fill(Vec2::Zero());
-		addNormalForces(x, e.shape, g, joint.kn * a.thickness, e.force);
-		// where the area changes the springs keep their energy, so that a contact which grows and shrinks neither makes nor wears any
-		const Real regrown = area > 0 ? std::sqrt(e.area / area) : 0;
-		for (int k : { 0, 1 }) {
-			const Real pressure = joint.kn * g.depth[k], before = joint.ks * e.area * e.slip[k] * e.slip[k] / 2;
-			Real       work = 0;
-			if (pressure > 0 && area > 0) {
-				const EdgeEnd end = edgeEnd(x, g, k);
-				Real          ds  = 0;
-				for (int corner = 0; corner < 4; ++corner)
-					ds += dt * end.slipGradient[corner].dot(v[corner]);
-				const Real old = e.slip[k] * regrown, limit = (joint.cohesionResidual + pressure * joint.tanPhiResidual) / joint.ks;
-				e.slip[k]       = std::clamp(old + ds, -limit, limit);
-				const Real drag = joint.ks * area * e.slip[k];
-				work            = (joint.ks * area * old + drag) / 2 * ds;
-				for (int corner = 0; corner < 4; ++corner)
-					e.force[corner] -= drag * end.slipGradient[corner];
-			} else
-				e.slip[k] = 0;
-			c.friction += work + before - joint.ks * area * e.slip[k] * e.slip[k] / 2;
-			e.sigma[k] = -pressure;
-			e.tau[k]   = joint.ks * e.slip[k];
-		}
-		e.area = area;
-		if (e.uplift > 0) lowerForces(x, e.uplift, e.force);
-	}
-}
-
 void advanceContacts(BlockAssembly& a, Real dt, [[maybe_unused]] int threads)
 {
-	const std::vector<int>& order       = a.contacts.order;
-	Real* const             sleepsUntil = a.contacts.sleepsUntil.data();
-	const int               count       = int(order.size());
-	constexpr int           ahead       = 4; // contacts lie all over the memory: what comes soon is fetched early
-#pragma omp parallel for schedule(dynamic, 64) num_threads(threads) if (threads > 1)
-	for (int i = 0; i < count; ++i) {
-		if (i + 2 * ahead < count) __builtin_prefetch(&a.state.contacts[order[i + 2 * ahead]]);
-		if (i + ahead < count) fetch(a.state.contacts[order[i + ahead]]);
-		const int          contact = order[i];
-		const FreeContact& c       = a.state.contacts[contact];
-		if (sleepsUntil[contact] > 0 && pathOf(a, c) < sleepsUntil[contact]) continue;
-		updateContact(a, contact);
-		advanceContact(a, contact, dt);
-		sleepsUntil[contact] = c.active.empty() ? c.allRestUntil : 0;
+	const int count = int(a.contacts.order.size()), parts = (count + atOnce - 1) / atOnce;
+	if (count == 0) return;
+#pragma omp parallel num_threads(threads) if (threads > 1)
+	{
+		Work work(a, dt);
+#pragma omp for schedule(dynamic)
+		for (int part = 0; part < parts; ++part)
+			work.run(part * atOnce, std::min(count, (part + 1) * atOnce));
 	}
 }
+
+void advanceContact(BlockAssembly& a, int contact, Real dt) { Work(a, dt).runOne(contact); }
 
 void gatherContactForces(const BlockAssembly& a, int block, Vec2* force)
 {
 	const FreeContacts& f = a.contacts;
 	if (block + 1 >= int(f.firstOfBlock.size())) return; // it came after the last look for contacts
 	for (int i = f.firstOfBlock[block]; i < f.firstOfBlock[block + 1]; ++i) {
-		const FreeContact& c     = a.state.contacts[f.ofBlock[i]];
-		const int          first = c.block[0] == block ? 0 : 2;
-		for (int index : c.active) {
-			const EdgePair& e = c.edges[index];
-			force[e.node[first]] += e.force[first];
-			force[e.node[first + 1]] += e.force[first + 1];
+		const int        contact = f.ofBlock[i];
+		const ForceRange range   = f.range[contact];
+		for (int k = range.first; k < range.last; ++k) {
+			const PairForce& on    = f.forces[k];
+			const int        first = on.node[0] >= a.mesh.firstNode[block] && on.node[0] < a.mesh.firstNode[block + 1] ? 0 : 2;
+			force[on.node[first]] += on.force[first];
+			force[on.node[first + 1]] += on.force[first + 1];
 		}
 	}
 }
@@ -202,8 +302,8 @@ Real contactEnergy(const BlockAssembly& a)
 	Real sum = 0;
 	for (int i : a.contacts.order) {
 		const FreeContact& c = a.state.contacts[i];
-		for (int k = 0; k < int(c.active.size()); ++k)
-			sum += c.joint.kn * a.thickness * edgePotential(c.geometry[k]) + shearEnergy(c, c.edges[c.active[k]]);
+		for (int pair : c.active)
+			sum += c.joint.kn * a.thickness * c.edges[pair].potential + shearEnergy(c, c.edges[pair]);
 	}
 	return sum;
 }
@@ -218,10 +318,11 @@ Real contactFriction(const BlockAssembly& a)
 
 ContactEnd contactEnd(const BlockAssembly& a, const FreeContact& c, int active, int k)
 {
-	const EdgePair&     e   = c.edges[c.active[active]];
-	const EdgeGeometry& g   = c.geometry[active];
-	const EdgeEnd       end = edgeEnd(raisedCorners(a, e), g, k);
-	return { a.mesh.reference[e.node[0]] + (end.onA + end.onB) / 2, { g.t.y(), -g.t.x() }, g.depth[k], e.sigma[k], e.tau[k], e.area };
+	const EdgePair&    e   = c.edges[c.active[active]];
+	const FourPoints   x   = points(raisedCorners(a, e));
+	const EdgeGeometry g   = edgeGeometry(x, e.shape);
+	const EdgeEnd      end = edgeEnd(x, g, k);
+	return { a.mesh.reference[e.node[0]] + (Vec2(end.onA) + Vec2(end.onB)) / 2, { g.t.y, -g.t.x }, -e.sigma[k] / c.joint.kn, e.sigma[k], e.tau[k], e.area };
 }
 
 PointStresses pointStresses(const BlockAssembly& a, int first, int last)

@@ -2,20 +2,17 @@
 #pragma once
 #include <blocks/kernel/model/BlockAssembly.hpp>
 
-/// The step of free contacts: for every contact, in any order and in parallel, updateContact and advanceContact; sumForces adds the forces.
+/// The step of free contacts; sumForces adds the forces.
 namespace blocks {
 
 /// What rules the contact: validated joint parameters; only kn, ks and the residual values count.
 void setContactJoint(BlockAssembly&, int contact, const JointParams&);
 
-/// Geometry of all edge pairs of a contact.
-void updateContact(BlockAssembly&, int contact);
-
-/// Stresses and nodal forces of all edge pairs; dt times the nodes' velocities is the last step's motion.
-void advanceContact(BlockAssembly&, int contact, Real dt);
-
-/// Both of these for all contacts.
+/// Where the edges of all contacts are, their stresses and their forces; dt times the nodes' velocities is the last step's motion [s].
 void advanceContacts(BlockAssembly&, Real dt, int threads = 1);
+
+/// The same for one of them, with the same bits.
+void advanceContact(BlockAssembly&, int contact, Real dt);
 
 /// Adds the contact forces on one block's grid points, in a fixed order.
 void gatherContactForces(const BlockAssembly&, int block, Vec2* force);
