@@ -213,7 +213,7 @@ void BlockModel::insert(bool interactions)
 
 	assembly.contacts.strangers = false; // until a script asks for an array that it may write
 	size_t     rigid            = 0;
-	const auto self  = YADE_PTR_CAST<BlockModel>(shared_from_this());
+	const auto self             = YADE_PTR_CAST<BlockModel>(shared_from_this());
 	for (int i = 0; i < assembly.blockCount(); ++i) {
 		auto       shape    = shared_ptr<Block>(new Block);
 		auto       body     = shared_ptr<Body>(new Body);
