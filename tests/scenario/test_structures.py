@@ -82,6 +82,15 @@ def test_tripletOfBrittleJoints(tmp_path):
 	assert found["cohesion"][0] < 0.8 * found["cohesion"][1] and found["friction"][0] == pytest.approx(found["friction"][1], rel=0.15)
 
 
+@needsYade
+def test_wall(tmp_path):
+	"""J4D up to 1.2 mm without cracks in bricks: the laboratory's stiffness, and the larger reading of its peak with its scatter, 57 +- 8 kN."""
+	found = measured(tmp_path, "wall", "crack=false", "steps=15000", "stroke=1.2e-3", "vtk=false", "sheets=false")
+	assert found["force_at_0.2_mm"][0] == pytest.approx(18, rel=0.15)
+	assert found["peak_shear_force"][0] == pytest.approx(57, abs=8)
+	assert found["cracks_bed_tension"][0] > 0 and "cracks_head_tension" in found and "cracks_unit_tension" not in found
+
+
 def test_bisection():
 	low, high = bisect(lambda x: x < 0.3, 0, 1, 1e-3)
 	assert low < 0.3 <= high and high - low <= 1e-3 * high
