@@ -11,6 +11,7 @@ about() { # needs Python alone, no YADE and no plugin
 usage() {
 	echo "usage: scripts/run.sh NAME [key=value ...], or scripts/run.sh NAME help for its keys"
 	about scripts
+	echo "examples: scripts/run.sh examples/NAME, NAME one of $(cd scripts/examples && echo *.py | sed 's/\.py//g')"
 }
 
 name="${1:-}"

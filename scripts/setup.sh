@@ -13,7 +13,7 @@ while [[ "${1:-}" = --* ]]; do
 		--tests)
 			tests=ON target=""
 			packages+=" python3-pytest libgtest-dev python3-scipy python3-distributed python3-optuna python3-openturns python3-shapely
-				python3-ezdxf python3-svgelements"
+				python3-ezdxf python3-svgelements python3-sphinx python3-myst-parser"
 			;;
 		--brief) brief=yes ;;
 		*) echo "setup.sh knows --tests and --brief, got $1" >&2; exit 2 ;;
@@ -29,9 +29,18 @@ run() { # a command whose output matters only if it fails
 	else "$@" > "$log" 2>&1 || { code=$?; cat "$log" >&2; exit $code; }
 	fi
 }
-share() { # ninja's lines -> a line for every fifth of them
-	awk -v log_="$log" -F'[][/]' '{ print > log_ } $2 ~ /^[0-9]+$/ && $3 > 0 { part = int(5 * $2 / $3)
-		if (part > last) { last = part; print "yade-blocks: " $2 " of " $3 " steps done" > "/dev/stderr" } }'
+share() { # ninja's lines -> how far it is: in place on a terminal, else a line for every fifth; nothing where nothing is to be done
+	local line said=no last=0 part
+	while IFS= read -r line; do # awk would wait for 4096 bytes
+		echo "$line" >> "$log"
+		[[ "$line" =~ ^\[([0-9]+)/([0-9]+)\]\ (Building|Linking) ]] || continue
+		[ $said = yes ] || { said=yes; say "building the plugin in build/ (the first time takes some minutes)"; }
+		part=$((5 * BASH_REMATCH[1] / BASH_REMATCH[2]))
+		if [ -t 2 ]; then printf '\ryade-blocks: %s of %s steps done ' "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}" >&2
+		elif [ $part -gt $last ]; then last=$part; say "${BASH_REMATCH[1]} of ${BASH_REMATCH[2]} steps done"
+		fi
+	done
+	[ $said = no ] || [ ! -t 2 ] || echo >&2
 }
 
 missing="$(scripts/install.sh --missing $packages "$@")"
@@ -51,10 +60,5 @@ elif [ $tests = ON ] && [ "$known" != ON ]; then run cmake -S . -B build -DBUILD
 fi
 build=(cmake --build build -j "$(nproc)" $target)
 if [ $brief = no ]; then "${build[@]}"
-elif [ -f build/build.ninja ] && ninja -C build -n ${target#--target} 2>&1 | grep -q 'no work to do'; then :
-else
-	say "building the plugin in build/ (the first time takes some minutes)"
-	if [ -t 2 ]; then "${build[@]}" >&2 # ninja shows in place how far it is
-	else "${build[@]}" 2>&1 | share || { cat "$log" >&2; exit 1; }
-	fi
+else "${build[@]}" 2>&1 | share || { cat "$log" >&2; exit 1; }
 fi

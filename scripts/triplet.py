@@ -4,10 +4,11 @@
 Three bricks with two bed joints without thickness, lying on their side: the outer ones stand on supports near the joints, the middle one is pressed down
 between them, under a precompression across the joints. The peak of the mean shear stress of both joints, at three precompressions, gives a straight line.
 
-	scripts/run.sh triplet [key=value ...]        about 10 s
+	scripts/run.sh triplet [joints=softening|brittle] [key=value ...]        about 10 s
 
-Expected: the cohesion and friction that the joints were given, if both joints broke everywhere at once. Brittle joints do not: stresses are uneven, and
-what comes out is lower. The difference is what this test tells.
+Expected: the cohesion and friction that the joints were given, if both joints broke everywhere at once. Joints that soften nearly do: before the first point
+has lost its cohesion, all have reached it. Brittle ones break one after the other, since stresses are uneven, and what comes out is lower. The difference is
+what this test tells. Joint properties are those of the wall J4D (Raijmakers and Vermeltfoort 1992, Lourenco and Rots 1997).
 """
 from math import atan
 
@@ -15,7 +16,7 @@ import numpy as np
 
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import curves, loading, pictures, picturesfields, scenario
+from yadeblocks import curves, loading, pictures, picturesfields, scenario, softening
 from yadeblocks.engines import loopList
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks
@@ -29,7 +30,9 @@ length, height, thickness = 0.21, 0.052, 0.1 # of a brick; its length is upright
 brick = dict(young=16.7e9, poisson=0.15, density=1900)
 sigmas = (0.2e6, 0.6e6, 1.0e6) # [Pa], EN 1052-3 for units stronger than 10 N/mm2
 p = scenario.parameters({
-	**scenario.usualParameters(threads=1, tag='', alpha=0.3, stroke=0.3e-3), 'cohesion': Key(0.35e6, 'cohesion of the joints', 'Pa', scenario.positive),
+	**scenario.usualParameters(threads=1, tag='', alpha=0.3, stroke=0.3e-3), 'joints': Key(
+		'softening', 'joints that soften, or brittle ones', rule=('softening', 'brittle')
+	), **softening.jointKeys('GfI', 'GfII'), 'cohesion': Key(0.35e6, 'cohesion of the joints', 'Pa', scenario.positive),
 	'friction': Key(0.75, 'friction coefficient of the joints',
 			rule=scenario.positive), 'tension': Key(0.25e6, 'tensile strength of the joints', 'Pa', scenario.positive),
 	'kn': Key(82e9, 'normal stiffness of the joints', 'Pa/m',
@@ -37,6 +40,8 @@ p = scenario.parameters({
 	'zone': Key(0.013, 'size of the zones', 'm', (lambda s: 0 < s <= height, 'must be positive and at most a brick\'s height')),
 	'steps': Key(10000, 'time steps for the whole stroke', rule=scenario.atLeastOne)
 })
+for key, value in (('GfI', 18.), ('GfII', 125.)): # [N/m]
+	if getattr(p, key) == -1: setattr(p, key, value if p.joints == 'softening' else 0.)
 dt = 1e-4 # [s]; masses are scaled to suit
 area = 2 * length * thickness # of both joints
 
@@ -48,7 +53,8 @@ def build(sigma):
 	model = BlockModel(thickness=thickness, planeStress=True)
 	for number in range(3):
 		model.addRegion(rectangle(number * height, 0, (number + 1) * height, length), 'unit', zoneSize=p.zone, zoning='regular')
-	model.bond([JointMat(material1='unit', material2='unit', kn=p.kn, ks=p.ks, cohesion=p.cohesion, tension=p.tension, frictionAngle=atan(p.friction))])
+	strengths = dict(cohesion=p.cohesion, tension=p.tension, frictionAngle=atan(p.friction), GfI=p.GfI, GfII=p.GfII)
+	model.bond([JointMat(material1='unit', material2='unit', kn=p.kn, ks=p.ks, **strengths)])
 	near = 0.3 * height # the supports, beside the joints
 	outer = lambda x, y: (y < 1e-9) & (((x < height + 1e-9) & (x > height - near)) | ((x > 2 * height - 1e-9) & (x < 2 * height + near)))
 	feet = nodesWhere(model, outer)

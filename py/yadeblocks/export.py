@@ -19,6 +19,15 @@ def pairName(model, first, second):
 	return "-".join(sorted(labels, key=lambda label: (label == "mortar", label)))
 
 
+def pointNames(model, names=None):
+	"""For every contact point the name of its joint, an array of str objects; names: name -> indices of joints (layout.Placed.joints), others have
+	the name of their pair."""
+	found = np.array([pairName(model, *blocks) for blocks in model.segmentBlocks], dtype=object)
+	for name, joints in (names or {}).items():
+		found[np.asarray(joints)] = name
+	return found.repeat(2)
+
+
 def blockOutlines(model):
 	"""The boundary of every block: a list of rings per block, each an array of node indices, material on the left (holes clockwise)."""
 	outlines = []

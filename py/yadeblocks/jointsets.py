@@ -10,7 +10,7 @@ from collections import namedtuple
 
 import numpy as np
 
-from .layout import Layout
+from .layout import Layout, joinSmall, _shapely
 
 #: Parallel joints. dip: angle of the traces with the x axis, counter-clockwise [degrees]; spacing: normal distance [m]; persistence: share of a trace that is
 #: joint, the rest is rock; length: mean length of the joints in a trace that is not persistent [m], 0: three spacings; scatter: standard deviation of spacing
@@ -41,21 +41,11 @@ def cut(outline, sets=(), cracks={}, holes=(), least=0.0):
 	lines = [shapely.geometry.LineString(trace) for of in traces.values() for trace in of]
 	inside = [part for line in lines for part in _lines(line.intersection(region))]
 	pieces = _polygons(shapely, region, inside)
-	pieces, merged = _merge(shapely, pieces, least)
+	pieces, merged = joinSmall(shapely, pieces, least)
 	between = sum(piece.length for piece in pieces) - region.length # every side within is counted twice
 	lost = sum(line.length for line in inside) - between / 2
 	return Layout([np.array(piece.exterior.coords) for piece in pieces], ['block'] * len(pieces), np.arange(len(pieces)), _namer(traces),
 			[[np.array(ring.coords)[:-1] for ring in piece.interiors] for piece in pieces], traces=traces, lostLength=max(0.0, lost), merged=merged)
-
-
-def _shapely():
-	try:
-		import shapely.geometry
-		import shapely.ops
-		import shapely.validation
-	except ImportError as error:
-		raise ImportError('yadeblocks.jointsets needs shapely: scripts/install.sh python3-shapely') from error
-	return shapely
 
 
 def _tracesOf(joints, bounds):
@@ -105,19 +95,6 @@ def _polygons(shapely, region, lines):
 	network = shapely.ops.unary_union([*lines, region.boundary])
 	pieces = [piece for piece in shapely.ops.polygonize(network) if region.contains(piece.representative_point())]
 	return sorted(pieces, key=lambda piece: (round(piece.centroid.y, 9), piece.centroid.x))
-
-
-def _merge(shapely, pieces, least):
-	"""Joins small pieces to neighbours; how many."""
-	merged = 0
-	while True:
-		small = min(pieces, key=lambda piece: piece.area)
-		if small.area >= least or len(pieces) == 1: return pieces, merged
-		side = lambda piece: small.intersection(piece).length if piece is not small else -1
-		neighbour = max(pieces, key=side)
-		if not side(neighbour) > 0: raise ValueError(f'cut.least: a block of {small.area:g} m2 has no neighbour to join')
-		pieces = [shapely.ops.unary_union([small, piece]) if piece is neighbour else piece for piece in pieces if piece is not small]
-		merged += 1
 
 
 def _namer(traces):

@@ -3,9 +3,9 @@
 
 	wall = runningBond(bricks=5, courses=6, length=0.4, height=0.175)      # a Layout: nothing is in a model yet
 	placed = wall.addTo(model, 'unit', zoneSize=0.1)                       # or rigid=True
-	model.bond([JointMat(...)])
-	joints = placed.joints(model)                                          # {'bed': array, 'head': array, ...}
-	model.setJoints(joints['bed'], cohesion=0.35e6)
+	joints = placed.bond(model, [JointMat(...)], head=dict(tension=0))     # {'bed': array, 'head': array, ...}
+	model.setJoints(joints['bed'], cohesion=0.35e6)                        # also later
+	Cracks(model, joints), pictures.drawCracks(path, model, names=joints)  # results and pictures by name
 
 Builders: brickwork, voussoirs, jointsets; their outlines are plain arrays, so that whatever can make polygons is one."""
 from collections import Counter
@@ -79,6 +79,17 @@ class Placed:
 		if not len(chosen): raise ValueError(f'no block of the kind {kind!r}; there are {", ".join(sorted(self.layout.counts))}')
 		return chosen
 
+	def bond(self, model, joints, **properties):
+		"""BlockModel.bond(joints), and then other properties for joints of a name: bed=dict(cohesion=..., ...), names as in BlockModel.setJoints.
+		Returns the joints by name, as `joints` does. ValueError for a name that no joint has; the model is bonded then."""
+		model.bond(joints)
+		named = self.joints(model)
+		for name in properties:
+			if name not in named: raise ValueError(f'Placed.bond: no joint has the name {name!r}; there are {", ".join(named)}')
+		for name, values in properties.items():
+			model.setJoints(named[name], **values)
+		return named
+
 	def joints(self, model):
 		"""Joints by name, indices for BlockModel.setJoints: {'bed': array, 'head': array, ..., 'platen': array}, each of those with the
 		builder's names that
@@ -96,3 +107,80 @@ class Placed:
 		pieces = self.layout.pieces[ours[within]]
 		names[within] = self.layout.nameOf(np.asarray(model.normal)[within], ends, pieces[:, 0] == pieces[:, 1])
 		return {name: np.flatnonzero(names == name) for name in sorted(set(names) - {''})}
+
+
+class Mortared:
+	"""A Layout whose blocks stand back by half a joint, and the mortar between them.
+
+	walls = Mortared(runningBond(bricks=4.5, courses=18, length=0.21, height=0.052, joint=0.01), 0.01)
+	placed = walls.addTo(model, 'unit', 'mortar', zoneSize=0.06, size=5e-3, seed=1)       # mortar of Voronoi blocks
+
+	layout: of blocks that touch; gap: thickness of the mortar [m]. Sides at the outside and at openings stay where they are, and so do those between parts
+	of one piece (a possible crack in mid-brick). `blocks`: a Layout; `mortar`: a list of (outline, holes) [m]. Needs shapely (Debian's python3-shapely).
+	Errors: ValueError where a block is too thin for its mortar."""
+	def __init__(self, layout, gap):
+		if not gap > 0: raise ValueError(f'Mortared.gap must be positive, got {gap!r}')
+		shapely = _shapely()
+		self.layout, self.gap = layout, gap
+		shapes = [shapely.geometry.Polygon(ring, holes) for ring, holes in zip(layout.outlines, layout.holes)]
+		region = shapely.ops.unary_union(shapes)
+		around = shapely.geometry.box(*region.bounds).buffer(4 * gap, join_style=2)
+		outside = around.difference(region)
+		within = around.buffer(-2 * gap, join_style=2) # the frame's own rim is eroded, too
+		pieces = {piece: shapely.ops.unary_union([shapes[i] for i in np.flatnonzero(layout.pieces == piece)]) for piece in set(layout.pieces.tolist())}
+		smaller = {
+			piece: shapely.ops.unary_union([shape, outside]).buffer(-gap / 2, join_style=2, mitre_limit=10).intersection(within)
+			for piece, shape in pieces.items()
+		}
+		stones = [shape.intersection(smaller[piece]) for shape, piece in zip(shapes, layout.pieces.tolist())]
+		for number, stone in enumerate(stones):
+			if stone.geom_type != 'Polygon' or stone.area <= 0:
+				raise ValueError(
+					f'Mortared.gap must leave something of every block, got {gap!r} for block {number} of {shapes[number].area:g} m2'
+				)
+		self.blocks = Layout([_corners(stone.exterior) for stone in stones], layout.kinds, layout.pieces, layout.nameOf,
+					[[_corners(ring) for ring in stone.interiors] for stone in stones], **layout.notes)
+		solid = [shapely.geometry.Polygon(ring, holes) for ring, holes in zip(self.blocks.outlines, self.blocks.holes)]
+		region = shapely.geometry.Polygon(_corners(region.exterior), [_corners(ring) for ring in region.interiors])
+		rest = region.difference(shapely.ops.unary_union(solid))
+		self.mortar = [
+			(_corners(part.exterior), [_corners(ring) for ring in part.interiors]) for part in getattr(rest, 'geoms', [rest]) if part.area > 0
+		]
+
+	def addTo(self, model, material, mortar, zoneSize, size, **voronoi):
+		"""Adds Voronoi blocks of the material `mortar` and the blocks of `material` to a BlockModel -> Placed. zoneSize: in the blocks; size and what follows:
+		of the mortar, as in BlockModel.addVoronoi. Joints of mortar with blocks are named 'platen' by Placed.joints."""
+		for outline, holes in self.mortar:
+			model.addVoronoi(counterClockwise(outline).tolist(), mortar, size=size, holes=[ring.tolist() for ring in holes], **voronoi)
+		return self.blocks.addTo(model, material, zoneSize=zoneSize)
+
+
+def _corners(ring):
+	"""Corners of a ring of shapely's, those on straight sides left out, to the nanometre: neighbours' corners are then the same."""
+	points = np.round(np.array(ring.coords)[:-1], 9)
+	before, behind = points - np.roll(points, 1, axis=0), np.roll(points, -1, axis=0) - points
+	bends = abs(before[:, 0] * behind[:, 1] - before[:, 1] * behind[:, 0]) > 1e-9 * np.hypot(*before.T) * np.hypot(*behind.T)
+	return points[bends]
+
+
+def joinSmall(shapely, pieces, least):
+	"""Polygons of shapely's of which those with less area than `least` [m2] have joined the neighbour with the longest side in common; how many."""
+	merged = 0
+	while True:
+		small = min(pieces, key=lambda piece: piece.area)
+		if small.area >= least or len(pieces) == 1: return pieces, merged
+		side = lambda piece: small.intersection(piece).length if piece is not small else -1
+		neighbour = max(pieces, key=side)
+		if not side(neighbour) > 0: raise ValueError(f'a block of {small.area:g} m2 has no neighbour to join')
+		pieces = [shapely.ops.unary_union([small, piece]) if piece is neighbour else piece for piece in pieces if piece is not small]
+		merged += 1
+
+
+def _shapely():
+	try:
+		import shapely.geometry
+		import shapely.ops
+		import shapely.validation
+	except ImportError as error:
+		raise ImportError('this needs shapely: scripts/install.sh python3-shapely') from error
+	return shapely

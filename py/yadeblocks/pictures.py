@@ -14,7 +14,7 @@ from itertools import cycle
 import numpy as np
 
 from . import files
-from .export import blockOutlines, contactLines, pairName
+from .export import blockOutlines, contactLines, pointNames
 from .results import Cracks, modes
 
 #: What a curve is compared with: y is a number (drawn as a line), a pair (a band) or, with x, a measured curve.
@@ -22,7 +22,7 @@ Reference = namedtuple("Reference", "label y x", defaults=(None, ))
 
 # Okabe and Ito's colours, which colour-blind readers and grey prints keep apart.
 _blue, _vermillion, _green, _purple, _black = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000"
-_jointColours = {"mortar-mortar": _blue, "unit-mortar": _vermillion, "unit-unit": _black}
+_jointColours = {"mortar-mortar": _blue, "unit-mortar": _vermillion, "unit-unit": _black, "bed": _vermillion, "head": _blue, "unit": _black, "platen": _green}
 _blockTones = {"unit": "#EBD3C3", "mortar": "#F6F3EA", "platen": "#C9CDD2"}
 _spareColours = (_green, _purple, "#56B4E9", "#E69F00")
 _spareTones = ("#DDE6DF", "#E3DDEA", "#EFE3C2", "#D6E4EE")
@@ -61,12 +61,12 @@ def drawCurve(path, curves, x, y, labels=None, references=(), title=""):
 	return path
 
 
-def drawCracks(path, model, magnification=None, window=None, title=""):
+def drawCracks(path, model, magnification=None, window=None, title="", names=None):
 	"""The specimen in its deformed shape: blocks in the light tones of their materials, on top the cracks, coloured by joint type,
 	solid where the joint broke in tension, dashed where it broke in shear.
 
 	magnification: of the displacements (less those of the whole), by default a round number that makes them visible;
-	window: (x0, y0, x1, y1) in the picture [m], by default the specimen. Returns the path."""
+	window: (x0, y0, x1, y1) in the picture [m], by default the specimen; names: of joints, as in results.Cracks. Returns the path."""
 	reference = np.asarray(model.reference)
 	displacement = model.position - reference
 	displacement = displacement - np.median(displacement, axis=0)
@@ -80,7 +80,7 @@ def drawCracks(path, model, magnification=None, window=None, title=""):
 		axes = figure.add_axes((0, 0, 1, 1), xlim=(low[0], high[0]), ylim=(low[1], high[1]))
 		axes.axis("off")
 		axes.set_title(title, fontsize=9)
-		cracks, blocks = _drawCrackLines(axes, model, shown), _drawBlocks(axes, model, shown)
+		cracks, blocks = _drawCrackLines(axes, model, shown, names), _drawBlocks(axes, model, shown)
 		_drawScale(axes, magnification)
 		axes.legend(
 			handles=cracks + blocks, title="" if cracks else "no broken joints", loc="upper center", borderaxespad=0,
@@ -145,13 +145,13 @@ def _drawBlocks(axes, model, shown):
 	return [Patch(facecolor=tones[label], edgecolor="#9C958B", linewidth=0.5, label=label) for label in present]
 
 
-def _drawCrackLines(axes, model, shown):
+def _drawCrackLines(axes, model, shown, names=None):
 	"""Draws the cracks; the legend's handles, all modes of a joint type one after the other."""
 	from matplotlib.collections import LineCollection
 	from matplotlib.lines import Line2D
-	counts = {pair: count for pair, count in Cracks(model).counts().items() if any(count.values())}
+	counts = {pair: count for pair, count in Cracks(model, names).counts().items() if any(count.values())}
 	colours = _assigned(counts, _jointColours, _spareColours)
-	pairs = np.array([pairName(model, *blocks) for blocks in model.segmentBlocks], dtype=object).repeat(2)
+	pairs = pointNames(model, names)
 	status = np.asarray(model.pointStatus)
 	lines = contactLines(model, shown)
 	size = np.ptp(model.reference, axis=0).max()

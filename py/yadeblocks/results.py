@@ -26,7 +26,7 @@ import numpy as np
 
 from . import files
 from .curves import hasPeak
-from .export import pairName
+from .export import pointNames
 
 #: Contact points by what has become of them: values of `model.pointStatus`.
 intact, brokenInTension, brokenInShear, neverBonded = range(4)
@@ -37,10 +37,11 @@ modes = {"tension": brokenInTension, "shear": brokenInShear}
 class Cracks:
 	"""What has broken in a model, and what broke first: `look()` every now and then, the rest whenever it is wanted.
 
-	To be made at the start of a run: areas count as they were bonded."""
-	def __init__(self, model):
+	To be made at the start of a run: areas count as they were bonded. names: name -> indices of joints, as layout.Placed.joints gives them; what has no
+	name counts under that of its pair of materials."""
+	def __init__(self, model, names=None):
 		self.model = model
-		self.pairs = np.array([pairName(model, *blocks) for blocks in model.segmentBlocks], dtype=object).repeat(2)
+		self.pairs = pointNames(model, names)
 		self.areas = np.repeat(model.segmentArea, 2)
 		self.bonded = sorted(set(self.pairs[np.asarray(model.pointStatus) != neverBonded]))
 		a, b = (np.asarray(model.reference)[np.asarray(model.segmentNodes)[:, end]] for end in (0, 1))
@@ -193,13 +194,14 @@ class Run:
 		yield
 		self.steppingTime, self._stepping = self.elapsed[2], None
 
-	def model(self, model, steps, **more):
-		"""Sizes and cracks of the model as it is now, after `steps` time steps. `more` joins the cost (ns_per_zone=...)."""
+	def model(self, model, steps, names=None, **more):
+		"""Sizes and cracks of the model as it is now, after `steps` time steps; names: of joints, as in Cracks. `more` joins the cost
+		(ns_per_zone=...)."""
 		self.costs.update(
 			steps=int(steps), blocks=len(model.blockMaterial), nodes=len(model.position), zones=len(model.zoneNodes),
 			contacts=len(model.pointStatus), **more
 		)
-		for pair, counts in Cracks(model).counts().items():
+		for pair, counts in Cracks(model, names).counts().items():
 			for mode, count in counts.items():
 				self.add(f"cracks_{pair}_{mode}", "1", count)
 

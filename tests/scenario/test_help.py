@@ -64,10 +64,11 @@ def fresh(tmp_path):
 		shutil.copy(house / "scripts" / name, tmp_path / "scripts")
 	steps = "for i in 1 2 3 4 5 6 7 8 9 10; do echo \"[$i/10] Building $i\"; done"
 	for name, text in {
-		"dpkg-query": 'case "$*" in *absent*) ;; *) printf installed ;; esac', "ninja": "test -f built && echo 'ninja: no work to do.'; true",
+		"dpkg-query": 'case "$*" in *absent*) ;; *) printf installed ;; esac', "ninja": "true",
 		"cmake": f'case "$1" in -S) touch build/build.ninja; echo -- Configuring ;; '
 		f'--build) test ! -f fail || {{ echo "error: no such type"; exit 1; }}; '
-		f'touch built; {steps} ;; esac', "apt-get": 'echo "apt-get $*" >> apt'
+		f'test ! -f nothing || {{ echo "[2/2] Re-checking globbed directories..."; exit; }}; '
+		f'{steps} ;; esac', "apt-get": 'echo "apt-get $*" >> apt'
 	}.items():
 		(tmp_path / "bin" / name).write_text("#!/bin/sh\n" + text + "\n")
 		(tmp_path / "bin" / name).chmod(0o755)
@@ -82,9 +83,22 @@ def test_firstBuildSaysWhatItDoes(fresh, tmp_path):
 		"yade-blocks: building the plugin in build/ (the first time takes some minutes)",
 		*(f"yade-blocks: {done} of 10 steps done" for done in (2, 4, 6, 8, 10))
 	]
+	(tmp_path / "nothing").touch()
 	again = fresh("--brief")
 	assert (again.returncode, again.stdout, again.stderr) == (0, "", "")
+	(tmp_path / "nothing").unlink()
 	assert "[10/10] Building 10" in fresh().stdout # in full
+
+
+def test_progressComesWhileItBuilds(fresh, tmp_path):
+	"""Not at the end: a build that waits for our answer to its third step gets it."""
+	steps = 'echo "[1/5] Building a"; echo "[2/5] Building b"; for i in 1 2 3 4 5 6 7 8 9 10; do test -f seen && break; sleep 0.1; done; test -f seen'
+	(tmp_path / "bin/cmake").write_text(f"#!/bin/sh\ncase \"$1\" in --build) {steps} ;; *) touch build/build.ninja ;; esac\n")
+	environment = {**os.environ, "PATH": f"{tmp_path / 'bin'}:{os.environ['PATH']}"}
+	run = subprocess.Popen([tmp_path / "scripts/setup.sh", "--brief"], stderr=subprocess.PIPE, text=True, env=environment, cwd=tmp_path)
+	for line in run.stderr:
+		if "2 of 5 steps" in line: (tmp_path / "seen").touch()
+	assert run.wait() == 0
 
 
 def test_buildThatFailsShowsWhy(fresh, tmp_path):

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from scenes import *
-from yadeblocks import jointsets, layout, outlines
+from yadeblocks import jointsets, layout, outlines, pictures
 from yadeblocks.brickwork import brickwork, englishBond, headerBond, runningBond, stackBond
 from yadeblocks.jointsets import JointSet
+from yadeblocks.results import Cracks
+from yadeblocks.rubble import rubble
 from yadeblocks.voussoirs import arch
 
 dry = dict(kn=1e9, ks=1e9, bonded=False, frictionAngle=0.5)
@@ -168,6 +170,88 @@ def test_impossibleCuts():
 						(box, [JointSet('a', 0, 1)], {'a': [(0, 0), (1, 1)]}, 'given once')):
 		with pytest.raises(ValueError, match=words):
 			jointsets.cut(outline, sets, cracks)
+
+
+# ---- mortar, rubble, names
+
+
+def test_mortarBetweenBricks():
+	"""Areas on paper: sides within stand back by half a joint, those outside and at the opening stay; nothing overlaps, nothing is missing."""
+	gap, hole = 0.01, (0.11, 0.062, 0.33, 0.124)
+	wall = runningBond(2.5, 4, 0.21, 0.052, gap, openings=[hole])
+	both = layout.Mortared(wall, gap)
+	mortar = sum(layout.area(layout.counterClockwise(ring)) - sum(abs(layout.area(hole)) for hole in holes) for ring, holes in both.mortar)
+	beds, heads = 0.33 + 0.33 + 0.55, 0.062 + 3 * 0.057 + 0.052 + 0.057 # lengths; heads end at beds, of which there are none at the opening
+	assert both.blocks.areas.sum() + mortar == pytest.approx(wall.areas.sum(), abs=1e-9)
+	assert both.blocks.counts == wall.counts and mortar == pytest.approx(gap * (beds + heads) + 4 * (gap / 2)**2, abs=1e-9) # corners at the opening
+	model = BlockModel(thickness=0.1)
+	materials()
+	placed = both.addTo(model, 'unit', 'mortar', zoneSize=0.03, size=6e-3, seed=2)
+	model.bond(strong())
+	pairs = np.asarray(model.blockMaterial)[np.asarray(model.segmentBlocks)]
+	unit = model.materialLabels.index('unit')
+	assert not (pairs == unit).all(axis=1).any() and set(placed.joints(model)) == {'platen'} # mortar everywhere
+	assert float(np.sum(model.zoneVolume)) == pytest.approx(0.1 * wall.areas.sum(), rel=1e-6)
+	with pytest.raises(ValueError, match='Mortared.gap must leave something'):
+		layout.Mortared(wall, 0.2)
+	with pytest.raises(ValueError, match='Mortared.gap must be positive, got 0'):
+		layout.Mortared(wall, 0)
+
+
+def test_partsOfABrickStayTogether():
+	wall = runningBond(2, 2, 0.21, 0.052, 0.01, crack=True)
+	model = BlockModel(thickness=0.1)
+	materials()
+	placed = layout.Mortared(wall, 0.01).addTo(model, 'unit', 'mortar', zoneSize=0.06, size=6e-3)
+	model.bond(strong())
+	assert lengths(model, {'unit': placed.joints(model)['unit']})['unit'] == pytest.approx(3 * (0.062 - 0.005), rel=1e-9) # bed joints on one side
+
+
+def test_rubble():
+	"""Areas and sizes; flat stones are wider than high by what was asked for, within what 60 stones scatter; the same seed gives the same stones."""
+	stones = rubble(rectangle(0, 0, 2, 1), size=0.18, seed=3, flatness=2)
+	assert stones.areas.sum() == pytest.approx(2) and np.sqrt(stones.areas.mean()) == pytest.approx(0.18, rel=0.02)
+	wide, high = np.array([np.ptp(ring, axis=0) for ring in stones.outlines]).mean(axis=0)
+	assert wide / high == pytest.approx(2, rel=0.15)
+	again = rubble(rectangle(0, 0, 2, 1), size=0.18, seed=3, flatness=2)
+	assert all(np.array_equal(a, b) for a, b in zip(stones.outlines, again.outlines))
+	model, placed = bonded(stones)
+	assert set(placed.joints(model)) == {'stone'}
+	round_ = layout.Mortared(rubble(rectangle(0, 0, 1, 0.6), 0.2, holes=[rectangle(0.4, 0.2, 0.5, 0.3)]), 0.01)
+	model = BlockModel(thickness=0.1)
+	materials()
+	round_.addTo(model, 'unit', 'mortar', zoneSize=0.1, size=0.01)
+	model.bond(strong())
+	assert float(np.sum(model.zoneVolume)) == pytest.approx(0.1 * (0.6 - 0.01), rel=1e-6)
+	for change, words in ((dict(size=-1), 'rubble.size must be positive'), (dict(lloyd=-1), 'rubble.lloyd'), (dict(flatness=0), 'rubble.flatness')):
+		with pytest.raises(ValueError, match=words):
+			rubble(rectangle(0, 0, 1, 1), **{**dict(size=0.3), **change})
+
+
+def test_namesInBondResultsAndPictures(tmp_path):
+	"""Properties by name at bond(); cracks are counted and drawn by name."""
+	wall = runningBond(2, 2, 0.2, 0.1, crack=True)
+	model = BlockModel(thickness=0.1)
+	materials()
+	placed = wall.addTo(model, 'unit', zoneSize=0.1)
+	joints = placed.bond(model, strong()[:1], head=dict(tension=1e3, cohesion=2e3), unit=dict(kn=1e13))
+	properties = model.jointProperties
+	assert (properties['tension'][joints['head']] == 1e3).all() and (properties['tension'][joints['bed']] == 1e15).all()
+	assert (properties['kn'][joints['unit']] == 1e13).all() and (properties['kn'][joints['head']] < 1e13).all()
+	ends = np.asarray(model.reference)
+	model.drive('left', np.flatnonzero(ends[:, 0] < 1e-9), 'xy')
+	model.drive('right', np.flatnonzero(ends[:, 0] > 0.4 - 1e-9), 'x', velocity=1e-4)
+	model.insert()
+	O.dt, O.engines = 1e-3, [BlockLoop(), BlockMotion()]
+	O.run(60, True)
+	counts = Cracks(model, joints).counts()
+	assert set(counts) == {'bed', 'head', 'unit'} and counts['head']['tension'] > 0 and not any(counts['bed'].values()) and not any(counts['unit'].values())
+	assert Cracks(model, joints).share('head') == 1 and set(Cracks(model).counts()) == {'unit-unit'}
+	assert pictures.drawCracks(tmp_path / 'a.png', model, names=joints).stat().st_size > 5000
+	model = BlockModel(thickness=0.1)
+	placed = wall.addTo(model, 'unit', zoneSize=0.1)
+	with pytest.raises(ValueError, match="no joint has the name 'heads'; there are bed, head, unit"):
+		placed.bond(model, strong()[:1], heads=dict(tension=1e3))
 
 
 # ---- drawings

@@ -1,61 +1,123 @@
 # yade-blocks, GPL-2.0-or-later
-"""The manual: every Python block runs, page by page; every command names a scenario and keys that exist; its own links and docstrings are whole."""
+"""The manual: every example runs; all code is theirs, or a command that exists; formulas can be drawn; links lead somewhere; docstrings are whole."""
 import os
 import re
+import shutil
 import subprocess
 import sys
-import textwrap
 from pathlib import Path
+from urllib.parse import unquote
 
+import matplotlib.image
 import pytest
 
 from scenes import *
 
 house = Path(__file__).resolve().parents[2]
-pages = sorted((house / 'py/manual').glob('*.rst'))
+pages = sorted((house / 'py/manual').glob('*.md'))
+examples = sorted((house / 'scripts/examples').glob('*.py'))
+sys.path.insert(0, str(house / 'py/manual'))
 
 
 def blocks(page, language):
-	"""The code blocks of a page, in order."""
-	found = re.findall(r'^\.\. code-block:: (\w+)\n\n((?:   .*\n|\n)+)', page.read_text(), re.M)
-	return [textwrap.dedent(text) for name, text in found if name == language]
+	"""The code blocks of a page in this language (sh, {literalinclude}, ...), in order: what stands behind the name, and the lines."""
+	return [(words.strip(), body) for name, words, body in re.findall(r'^```(\S*) ?(.*)\n((?:.*\n)*?)```$', page.read_text(), re.M) if name == language]
 
 
-@pytest.mark.parametrize('page', [page for page in pages if blocks(page, 'python')], ids=lambda page: page.stem)
-def test_blocksRun(page, tmp_path, monkeypatch):
+@pytest.mark.parametrize('example', examples, ids=lambda path: path.stem)
+def test_examplesRun(example, tmp_path, monkeypatch):
 	O.reset()
 	monkeypatch.chdir(tmp_path)
-	script = tmp_path / f'{page.stem}.py'
-	script.write_text('\n'.join(blocks(page, 'python')))
-	monkeypatch.setattr(sys, 'argv', [str(script)])
-	exec(compile(script.read_text(), str(script), 'exec'), {'__name__': 'manual'})
+	monkeypatch.setattr(sys, 'argv', [str(example)])
+	exec(compile(example.read_text(), str(example), 'exec'), {'__name__': 'example'})
+	if example.stem == 'first': leftByTheFirst(tmp_path / 'out/first')
 
 
-def test_thereAreBlocks():
-	assert sum(len(blocks(page, 'python')) for page in pages) >= 12
-	assert not any(language not in ('python', 'sh') for page in pages for language in re.findall(r'code-block:: (\w+)', page.read_text()))
+def leftByTheFirst(folder):
+	"""A curve with names on its axes, a picture, frames for ParaView."""
+	assert {path.name for path in folder.iterdir()} >= {'curve.csv', 'curve.png', 'cracks.png', 'blocks.pvd', 'joints.pvd'}
+	assert (folder / 'curve.csv').read_text().startswith('seed,shortening_mm,stress_MPa,broken\n')
+	assert all(min(matplotlib.image.imread(folder / name).shape[:2]) > 500 for name in ('curve.png', 'cracks.png'))
+	assert (folder / 'blocks.pvd').read_text().count('<DataSet') >= 5
+
+
+def test_examplesAreShortAndShown():
+	"""All are in the manual, and all code of the manual is theirs."""
+	shown = [words for page in pages for words, _ in blocks(page, '{literalinclude}')]
+	assert sorted(shown) == sorted(f'examples/{path.name}' for path in examples)
+	assert all(len(path.read_text().splitlines()) <= 65 for path in examples)
+	others = {name for page in pages for name in re.findall(r'^```(\S+)', page.read_text(), re.M)}
+	assert others <= {'sh', '{literalinclude}', '{toctree}'}
 
 
 def test_commandsExist():
-	lines = [line.split() for page in pages for block in blocks(page, 'sh') for line in block.splitlines() if line.strip()]
+	lines = [line.split() for page in (*pages, house / 'README.md') for _, block in blocks(page, 'sh') for line in block.splitlines() if line.strip()]
+	lines = [words[:words.index('#')] if '#' in words else words for words in lines]
 	scripts = sorted({house / 'scripts' / f'{words[1]}.py' for words in lines if words[0] == 'scripts/run.sh' and len(words) > 1})
-	assert lines and all((house / words[0]).exists() for words in lines) and all(script.exists() for script in scripts)
+	assert len(lines) > 15 and all((house / words[0]).exists() for words in lines) and all(script.exists() for script in scripts)
 	run = subprocess.run(['/usr/bin/python3', '-m', 'yadeblocks.help', *scripts], capture_output=True, text=True,
 				env={**os.environ, 'PYTHONPATH': str(house / 'py')})
 	parts = re.findall(r'^scripts/run.sh (\w+)(.*?)(?=^scripts/run|\Z)', run.stdout, re.M | re.S)
 	keys = {name: set(re.findall(r'^  (\w+)=', part, re.M)) for name, part in parts}
 	for words in lines:
-		assert all(word == 'help' or word.partition('=')[0] in keys[words[1]] for word in words[2:]), words
+		if words[0] != 'scripts/run.sh': continue
+		assert all(word == 'help' or word.partition('=')[0] in keys[Path(words[1]).name] for word in words[2:]), words
 
 
 def test_pagesAreListed():
-	listed = re.findall(r'^   (\w+)$', (house / 'py/manual/index.rst').read_text(), re.M)
-	assert sorted(listed) == sorted(page.stem for page in pages if page.stem != 'index')
+	listed = [line for _, block in blocks(house / 'py/manual/index.md', '{toctree}') for line in block.splitlines() if line and line[0] != ':']
+	assert sorted(listed) == sorted(['classes/index', *(page.stem for page in pages if page.stem != 'index')])
+
+
+def test_linksOfPagesAndReadme(tmp_path):
+	"""Each leads to a file, in the house or as made by figures.py and classes.py."""
+	import classes
+	import figures
+	figures.write(tmp_path / 'figures'), classes.write(tmp_path / 'classes')
+	for page in (*pages, house / 'README.md', house / 'pkg/blocks/README.md', house / 'tests/README.md'):
+		for target in re.findall(r'\]\(([^)#\s]+)\)', re.sub(r'`[^`\n]*`', '', page.read_text())):
+			if not target.startswith('http'):
+				assert any((place / unquote(target)).exists() for place in (page.parent, tmp_path)), (page.name, target)
+
+
+def test_builds(tmp_path):
+	"""Without a warning, all links whole, nothing fetched from elsewhere; formulas and figures are in it."""
+	import classes
+	import figures
+	import links
+	source, built = tmp_path / 'source', tmp_path / 'html'
+	shutil.copytree(house / 'py/manual', source, ignore=shutil.ignore_patterns('__pycache__'))
+	shutil.copytree(house / 'scripts/examples', source / 'examples', ignore=shutil.ignore_patterns('__pycache__'))
+	figures.write(source / 'figures'), classes.write(source / 'classes')
+	run = subprocess.run(['/usr/bin/python3', '-m', 'sphinx', '-q', '-W', '--keep-going', '-b', 'html', source, built], capture_output=True, text=True)
+	assert run.returncode == 0, run.stderr
+	assert links.broken(built) == []
+	theory = (built / 'theory.html').read_text()
+	assert theory.count('class="formula"') >= 7 and theory.count('<img') >= 3 and '$' not in re.sub(r'<svg.*?</svg>', '', theory, flags=re.S)
+
+
+def test_formulasCanBeDrawn():
+	"""Offline, by matplotlib: what it cannot draw must not get into the manual."""
+	import mathsvg
+	formulas = [formula for page in pages for formula in re.findall(r'\$\$(.+?)\$\$|\$([^$]+?)\$', page.read_text(), re.S)]
+	assert len(formulas) > 20
+	for both in formulas:
+		assert '<path' in mathsvg.svg(''.join(both))
+	with pytest.raises(ValueError):
+		mathsvg.svg(r'\nosuchthing{x}')
+
+
+def test_brokenLinksAreSeen(tmp_path):
+	import links
+	(tmp_path / 'a.html').write_text('<link href="https://x.org/a.css"><p id="here"><a href="#here">a</a><a href="b.html#p">b</a><img src="no.png">')
+	(tmp_path / 'b.html').write_text('<a href="https://x.org">out</a><a href="a.html#there">c</a>')
+	assert sorted(links.broken(tmp_path)) == [
+		'a.html: b.html#p', 'a.html: https://x.org/a.css is fetched from elsewhere', 'a.html: no.png', 'b.html: a.html#there'
+	]
 
 
 def test_classPages(tmp_path):
 	"""No role of YADE's is left, every method and attribute of our classes has words, and links lead to pages that exist."""
-	sys.path.insert(0, str(house / 'py/manual'))
 	import classes
 	classes.write(tmp_path)
 	written = {page.stem: page.read_text() for page in tmp_path.glob('*.rst')}
