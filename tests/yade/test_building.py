@@ -1,5 +1,7 @@
 # yade-blocks, GPL-2.0-or-later
 """Blocks are what was asked for: edges divided, holes empty, overlaps refused, and a refusal adds nothing."""
+import math
+
 import pytest
 
 from scenes import *
@@ -223,3 +225,28 @@ def test_thinBlocksAreNoOverlap():
 	pairs = {tuple(pair) for pair in m.segmentBlocks}
 	assert pairs == {(0, 1), (0, 2), (1, 2), (1, 3), (2, 3)}
 	assert 2 * m.segmentArea.sum() == pytest.approx(2 + 1e-6, rel=1e-9)
+
+
+@pytest.mark.parametrize('width', (1e-6, 1e-5))
+@pytest.mark.parametrize('zoning', ('delaunay', 'corners'))
+@pytest.mark.parametrize('conforming', (True, False))
+def test_thinRegionsAreNoOverlap(width, zoning, conforming):
+	"""Strips and slivers a millionth as wide as they are long, beside each other and between squares, lying, standing and turned: each shares
+	with its neighbours the length that it should."""
+	w, length = width, math.hypot(1, width)
+	slanted = math.hypot(1, .3)
+	for regions, shared in (([R(0, 0, w, 1), R(w, 0, 2 * w, 1)], 1), ([R(0, 0, 1, 1), R(1, 0, 1 + w, 1)], 1), ([
+		R(0, 0, 1, 1), R(1, 0, 1 + w, 1), R(1 + w, 0, 2, 1)
+	], 2), ([R(0, 0, 1, 1), R(0, 1, 1, 1 + w),
+			R(0, 1 + w, 1, 2)], 2), ([R(5, 5, 6, 6), R(6, 5, 6 + w, 6),
+							R(6 + w, 5, 7, 6)], 2), ([R(0, 0, w, 1), R(w, .5, 2 * w, 1.5)], .5), ([[(0, 0), (1, .3), (1, .3 + w),
+																(0, w)],
+																[(0, w), (1, .3 + w),
+																	(1, .3 + 2 * w),
+																	(0, 2 * w)]], slanted),
+				([[(0, 0), (1, 0), (1, w)], [(0, 0), (1, w), (1, 1)]], length), ([R(0, 0, w, 1), R(3 * w, 0, 4 * w, 1)], 0)):
+		m = fresh()
+		for region in regions:
+			m.addRegion(region, 'unit', zoneSize=.1, zoning=zoning, conforming=conforming)
+		m.bond()
+		assert 2 * m.segmentArea.sum() == pytest.approx(shared, rel=1e-4, abs=1e-9), regions

@@ -3,6 +3,7 @@
 #include <blocks/kernel/geometry/Polygon.hpp>
 #include <blocks/kernel/geometry/Tessellation.hpp>
 #include <blocks/kernel/geometry/Zoning.hpp>
+#include <blocks/kernel/model/ContactDetection.hpp>
 #include <blocks/python/Building.hpp>
 #include <blocks/views/Materials.hpp>
 #include <map>
@@ -174,19 +175,24 @@ namespace {
 		return addCells(Shape::triangles, model, outer, material, size, sizeMeaning, lloyd, seed, holes, random, mergeFraction, zoning, edgeSegments);
 	}
 
-	/// The region with those boundary points of the blocks that are there which lie on its outline.
-	blocks::Polygon withNeighboursPoints(const BlockAssembly& a, const blocks::Polygon& region)
+	/// The region with those boundary points of the blocks that are there which lie on its outline. What is thin counts by its width: the far side of a
+	/// sliver does not lie on the edge along its near one.
+	blocks::Polygon withNeighboursPoints(const BlockAssembly& a, blocks::Polygon region)
 	{
-		const Real tolerance = 1e-6 * std::min(std::sqrt(blocks::signedArea(region)), blocks::meanWidth(region));
+		const Real own = std::min(std::sqrt(blocks::signedArea(region)), blocks::meanWidth(region));
 		Vec2       low = region.outer[0], high = low;
 		for (const Vec2& p : region.outer)
 			low = low.cwiseMin(p), high = high.cwiseMax(p);
-		std::vector<Vec2> points;
-		for (const auto& edge : a.mesh.edgeNodes) {
-			const Vec2 p = a.position(edge[0]);
-			if (((p - low).array() >= -tolerance).all() && ((high - p).array() >= -tolerance).all()) points.push_back(p);
+		for (int block = 0; block < a.blockCount(); ++block) {
+			std::vector<Vec2> points;
+			for (int e = a.mesh.firstEdge[block]; e < a.mesh.firstEdge[block + 1]; ++e) {
+				const Vec2 p = a.position(a.mesh.edgeNodes[e][0]);
+				if (((p - low).array() >= -1e-6 * own).all() && ((high - p).array() >= -1e-6 * own).all()) points.push_back(p);
+			}
+			if (points.empty()) continue;
+			region = blocks::withPointsOnEdges(region, points, 1e-6 * std::min(own, blocks::meanWidth(blocks::outlineOf(a, block))));
 		}
-		return blocks::withPointsOnEdges(region, points, tolerance);
+		return region;
 	}
 
 	int addRegion(

@@ -69,19 +69,6 @@ namespace {
 		return true;
 	}
 
-	/// A block's present outline, with its holes [m].
-	Polygon outlineOf(const BlockAssembly& a, int block)
-	{
-		std::vector<Ring> rings;
-		for (int e = a.mesh.firstEdge[block], first = -1; e < a.mesh.firstEdge[block + 1]; ++e) {
-			const auto& edge = a.mesh.edgeNodes[e];
-			if (first < 0) rings.emplace_back(), first = edge[0];
-			rings.back().push_back(a.position(edge[0]));
-			if (edge[1] == first) first = -1;
-		}
-		return { rings[0], { rings.begin() + 1, rings.end() } };
-	}
-
 	/// Blocks whose edges do not cross may still lie one within another: then so does the smaller one's box.
 	void requireNoneWithin(const BlockAssembly& a)
 	{
@@ -110,6 +97,18 @@ namespace {
 	}
 
 } // namespace
+
+Polygon outlineOf(const BlockAssembly& a, int block)
+{
+	std::vector<Ring> rings;
+	for (int e = a.mesh.firstEdge[block], first = -1; e < a.mesh.firstEdge[block + 1]; ++e) {
+		const auto& edge = a.mesh.edgeNodes[e];
+		if (first < 0) rings.emplace_back(), first = edge[0];
+		rings.back().push_back(a.position(edge[0]));
+		if (edge[1] == first) first = -1;
+	}
+	return { rings[0], { rings.begin() + 1, rings.end() } };
+}
 
 std::vector<Segment> detectSegments(const BlockAssembly& a, Real tolerance)
 {
