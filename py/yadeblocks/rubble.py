@@ -14,8 +14,8 @@ from .layout import Layout, joinSmall, _shapely
 def rubble(outline, size, seed=1, lloyd=2, flatness=1.0, holes=()):
 	"""Voronoi stones -> layout.Layout with blocks of the kind 'stone'.
 
-	outline, holes: polygons [m]; size: root of the stones' mean area [m]; seed: of the random points; lloyd: iterations towards regular stones; flatness: mean
-	width by height of the stones, 2 for flat ones as they are laid. Stones that a hole or a corner cuts in two become two;
+	outline, holes: polygons [m]; size: root of the stones' mean area [m]; seed: of the random points; lloyd: iterations towards regular stones;
+	flatness: mean width by height of the stones, 2 for flat ones as they are laid. Stones that a hole or a corner cuts in two become two;
 	what is less than a twentieth of the mean joins a neighbour.
 	Errors: ValueError, which names the argument, the rule and the value."""
 	for name, value, fulfilled, rule in (('size', size, size > 0,
