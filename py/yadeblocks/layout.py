@@ -150,7 +150,8 @@ class Mortared:
 	def addTo(self, model, material, mortar, zoneSize, size, **voronoi):
 		"""Adds Voronoi blocks of the material `mortar` and the blocks of `material` to a BlockModel -> Placed.
 
-		zoneSize: in the blocks; size and what follows: of the mortar, as in BlockModel.addVoronoi. Joints of mortar with blocks are named 'platen' by Placed.joints."""
+		zoneSize: in the blocks; size and what follows: of the mortar, as in BlockModel.addVoronoi. Joints of mortar with blocks are named 'platen'
+		by Placed.joints."""
 		for outline, holes in self.mortar:
 			model.addVoronoi(counterClockwise(outline).tolist(), mortar, size=size, holes=[ring.tolist() for ring in holes], **voronoi)
 		return self.blocks.addTo(model, material, zoneSize=zoneSize)
