@@ -13,7 +13,7 @@ while [[ "${1:-}" = --* ]]; do
 		--tests)
 			tests=ON target=""
 			packages+=" python3-pytest libgtest-dev python3-scipy python3-distributed python3-optuna python3-openturns python3-shapely
-				python3-ezdxf python3-svgelements python3-sphinx python3-myst-parser"
+				python3-ezdxf python3-svgelements python3-sphinx python3-myst-parser xvfb xauth"
 			;;
 		--brief) brief=yes ;;
 		*) echo "setup.sh knows --tests and --brief, got $1" >&2; exit 2 ;;

@@ -6,6 +6,7 @@
 #include <core/TimeStepper.hpp>
 #include <cstddef>
 #include <pkg/common/ElastMat.hpp>
+#include <pkg/common/GLDrawFunctors.hpp>
 #include <pkg/common/NormShearPhys.hpp>
 #include <pkg/common/PeriodicEngines.hpp>
 #include <pkg/common/Sphere.hpp>
@@ -37,6 +38,9 @@ CHECK_LAYOUT(BoundFunctor, 88, )
 CHECK_LAYOUT(IGeomFunctor, 88, )
 CHECK_LAYOUT(IPhysFunctor, 88, )
 CHECK_LAYOUT(LawFunctor, 88, )
+CHECK_LAYOUT(GlShapeFunctor, 88, )
+CHECK_LAYOUT(GlIGeomFunctor, 88, )
+CHECK_LAYOUT(GlIPhysFunctor, 88, )
 CHECK_LAYOUT(Shape, 96, ((boundFunctor, 32))((internalforcefunctor, 48))((color, 64))((wire, 88))((highlight, 89)))
 CHECK_LAYOUT(Bound, 144, ((lastUpdateIter, 32))((refPos, 40))((sweepLength, 64))((color, 72))((min, 96))((max, 120)))
 CHECK_LAYOUT(Aabb, 144, )

@@ -44,7 +44,9 @@ def builtPlugin():
 def load(path, yade):
 	"""Loads a plugin into a running YADE and registers its classes."""
 	checkVersion(path, yade)
-	ctypes.PyDLL(path, os.RTLD_GLOBAL | os.RTLD_NOW).yadeRegisterNewClasses()
+	plugin = ctypes.PyDLL(path, os.RTLD_GLOBAL | os.RTLD_NOW)
+	plugin.yadeRegisterNewClasses()
+	if 'yade.qt' in sys.modules: plugin.yadeDrawNewClasses(ctypes.py_object(sys.modules['yade.qt'].Renderer()))
 
 
 def publish(yade):

@@ -38,7 +38,7 @@ void Ip2_BlockMat_BlockMat_JointPhys::go(
 				"Ip2_BlockMat_BlockMat_JointPhys.joints has no JointMat for the pair of materials \"" + std::min(a, b) + "\" and \""
 				+ std::max(a, b) + "\", whose blocks touch");
 		else if (geom->pair >= 0)
-			geom->model->setJoint(geom->pair, *joint);
+			geom->model->setJoint(geom->pair, *joint, jointList);
 		else
 			blocks::setContactJoint(geom->model->assembly, geom->contact, blocks::neverBonded(joint->params()));
 	} catch (const std::exception& error) { // changed after it was checked

@@ -151,12 +151,15 @@ int BlockModel::bond(const vector<shared_ptr<JointMat>>& list, Real tolerance)
 	return int(a.joints.pairs.size());
 }
 
-void BlockModel::setJoint(int pair, const JointMat& joint)
+void BlockModel::setJoint(int pair, const JointMat& joint, const vector<shared_ptr<JointMat>>& all)
 {
 	const blocks::JointParams         params    = joint.params();
 	const blocks::SofteningParams     softening = joint.softening();
 	const std::lock_guard<std::mutex> lock(complaintMutex);
-	const auto&                       p = assembly.joints.pairs[pair];
+	// all kinds at once, before any thread reads one of them: a list that grows later would move
+	for (const auto& other : all)
+		assembly.addKind(other->params(), other->softening());
+	const auto& p = assembly.joints.pairs[pair];
 	assembly.setJoints(p.first, p.last, params, joint.bonded ? blocks::Joint::intact : blocks::Joint::unbonded, softening);
 	stiffnessChanged();
 }

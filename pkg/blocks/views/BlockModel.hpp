@@ -57,7 +57,7 @@ public:
 	int bond(const vector<shared_ptr<JointMat>>&, Real tolerance);
 
 	/// Properties of a pair's joints, and whether they are whole; several threads may do this for different pairs, with joints that do not soften.
-	void setJoint(int pair, const JointMat&);
+	void setJoint(int pair, const JointMat&, const vector<shared_ptr<JointMat>>& all = {}); // all: those that other pairs will be given
 
 	/// What is missing where two blocks touch without a bond and no JointMat says how; empty if nothing is.
 	string withoutJoint(int contact) const;
