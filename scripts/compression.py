@@ -26,6 +26,7 @@ from yade import *
 from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
 from yadeblocks.engines import loopList
 from yadeblocks.export import writeFilm
+from yadeblocks.pace import Pace
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
@@ -112,15 +113,17 @@ def crush(stage, seed, steps):
 	stop = loading.Stop(drop=last, displacement=p.stroke)
 	wider = Gauge(model, left, right, 'x')
 	film = Film(model, p.frames if p.vtk else 0)
+	pace = Pace(model, lambda: model.groupForce('platen'), lambda: model.groupForce('bottom'), stage.label)
 	record = Recorder(
 		strain=lambda: -model.groupTravelled('platen') / height, stress=lambda: -model.groupForce('platen') / area, lateral=lambda: wider() / p.width,
 		broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=floor)
 	)
-	with Progress(steps, lambda: loadingLine(record.last.strain * height, record.last.stress, model), label=stage.label) as progress:
+	with Progress(steps, lambda: loadingLine(record.last.strain * height, record.last.stress, model, pace), label=stage.label) as progress:
 		record.after(lambda row: film.look(-model.groupTravelled('platen') / p.stroke, row.stress, O.time))
 		record.after(lambda row: cracks.noteStress(row.stress))
 		record.after(lambda row: progress(int(-steps * model.groupTravelled('platen') / p.stroke)))
 		record.after(lambda row: stop(-model.groupTravelled('platen'), row.stress, row.broken))
+		record.after(lambda row: pace(row.broken))
 		stage.keep(record=record, cracks=cracks, stop=stop)
 		if not stage.model: begin(model, steps, floor, record, wider, cracks, stage.label)
 		stage.run()

@@ -30,6 +30,7 @@ from yade import *
 from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
 from yadeblocks.engines import loopList
 from yadeblocks.export import writeFilm
+from yadeblocks.pace import Pace
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
@@ -122,11 +123,13 @@ def shear(stage, seed, steps):
 	if not stage.model: press(model, dt, floor)
 	approach = None if p.servo else loading.Approach(model, 'shear', p.approach) # one of them sets the speed
 	stop = loading.Stop(displacement=p.stroke)
-	with Progress(steps, lambda: loadingLine(record.last.displacement, record.last.stress, model), label=stage.label) as progress:
+	pace = Pace(model, lambda: model.groupForce('shear'), lambda: model.groupForce('bottom', axis='x'), stage.label)
+	with Progress(steps, lambda: loadingLine(record.last.displacement, record.last.stress, model, pace), label=stage.label) as progress:
 		record.after(lambda row: film.look(model.groupTravelled('shear') / p.stroke, row.stress, O.time))
 		if approach: record.after(lambda row: approach(row.stress, row.yielded))
 		record.after(lambda row: stop(model.groupTravelled('shear'), row.stress, row.broken))
 		record.after(lambda row: progress(int(steps * model.groupTravelled('shear') / p.stroke)))
+		if p.solver == 'steps': record.after(lambda row: pace(row.yielded))
 		stage.keep(record=record, cracks=cracks, approach=approach, stop=stop)
 		if not stage.model:
 			if p.solver == 'events':

@@ -36,6 +36,7 @@ from yade import *
 from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
 from yadeblocks.engines import loopList
 from yadeblocks.export import writeFilm
+from yadeblocks.pace import Pace
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
@@ -123,8 +124,9 @@ def pull(stage, seed, steps):
 		displacement=gauge, stress=lambda: model.groupForce('top') / area, broken=cracks.look, yielded=lambda: np.count_nonzero(model.pointStatus),
 		unbalanced=lambda: model.unbalancedRatio(floor=floor)
 	)
+	pace = Pace(model, lambda: model.groupForce('top'), lambda: model.groupForce('bottom', axis='y'), stage.label)
 	record.after(lambda row: film.look(model.groupTravelled('top') / stroke, row.stress, O.time))
-	with Progress(steps, lambda: loadingLine(record.last.displacement, record.last.stress, model), label=stage.label) as progress:
+	with Progress(steps, lambda: loadingLine(record.last.displacement, record.last.stress, model, pace), label=stage.label) as progress:
 		record.after(lambda row: progress(O.iter)).after(lambda row: stop(model.groupTravelled('top'), row.stress, row.broken))
 		if p.solver == 'events':
 			path = loading.follow(model, 'top', stage.label, gauges=[gauge], displacement=2 * stroke)
@@ -138,6 +140,7 @@ def pull(stage, seed, steps):
 		if not stage.model: begin(model, steps, floor)
 		approach = loading.Approach(model, 'top', 1 / faster) if softens and not p.servo else None # one of them sets the speed
 		if approach: record.after(lambda row: approach(row.stress, row.yielded))
+		record.after(lambda row: pace(row.yielded))
 		stage.keep(record=record, cracks=cracks, approach=approach, stop=stop)
 		if not stage.model: leap(model, steps, record)
 		stage.run()

@@ -18,6 +18,7 @@ import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import curves, loading, pictures, picturesfields, scenario, softening
 from yadeblocks.engines import loopList
+from yadeblocks.pace import Pace
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks
 from yadeblocks.scenario import Key
@@ -77,7 +78,8 @@ def shear(sigma):
 	cracks = Cracks(model)
 	stop = loading.Stop(drop=0.9, displacement=p.stroke)
 	record = Recorder(path=lambda: -model.groupTravelled('ram'), stress=lambda: -model.groupForce('ram') / area, broken=cracks.look)
-	record.after(lambda row: stop(row.path, row.stress, row.broken))
+	pace = Pace(model, lambda: model.groupForce('ram'), lambda: model.groupForce('supports'), 'at %g N/mm²' % (sigma / 1e6))
+	record.after(lambda row: pace(row.broken)).after(lambda row: stop(row.path, row.stress, row.broken))
 	model.setTarget('ram', -p.stroke / (p.steps * dt), rampTime=0.05 * p.steps * dt)
 	O.engines += [record.engine(20)]
 	O.run(2 * p.steps, True)

@@ -28,6 +28,7 @@ from yadeblocks import brickwork, curves, loading, pictures, scenario
 from yadeblocks.engines import loopList
 from yadeblocks.export import writeFilm
 from yadeblocks.layout import Mortared
+from yadeblocks.pace import Pace
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks
@@ -131,11 +132,15 @@ def shear(stage, seed):
 		displacement=lambda: model.groupTravelled('side'), force=lambda: model.groupForce('side'), normal=lambda: -model.groupForce('press'),
 		broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=1e-2 * load), kinetic=model.kineticEnergy
 	)
+	pace = Pace(model, lambda: model.groupForce('side'), lambda: model.groupForce('base', axis='x'), stage.label)
 	speed = p.stroke / (p.steps * dt)
-	model.setTarget('side', speed, rampTime=0.02 * p.steps * dt)
-	with Progress(p.steps, lambda: loadingLine(record.last.displacement, record.last.force / (width * thickness), model), label=stage.label) as progress:
+	model.setTarget('side', speed, rampTime=0.1 * p.steps * dt)
+	with Progress(
+		p.steps, lambda: loadingLine(record.last.displacement, record.last.force / (width * thickness), model, pace), label=stage.label
+	) as progress:
 		record.after(lambda row: film.look(row.displacement / p.stroke, row.force, O.time))
 		record.after(lambda row: progress(int(p.steps * row.displacement / p.stroke)))
+		record.after(lambda row: pace((model.pointDamage > 0.1).any()))
 		record.after(lambda row: stop(row.displacement, row.force, row.broken))
 		O.engines += [record.engine(max(1, p.steps // 800))]
 		stage.run()

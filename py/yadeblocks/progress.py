@@ -56,10 +56,10 @@ class Progress:
 		self.close()
 
 
-def loadingLine(displacement, stress, model):
-	"""The usual report of a strength test: displacement [m], stress [Pa], broken contact points."""
+def loadingLine(displacement, stress, model, pace=None):
+	"""The usual report of a strength test: displacement [m], stress [Pa], broken contact points and, with a pace.Pace, what it says."""
 	broken = ((model.pointStatus == 1) | (model.pointStatus == 2)).sum()
-	return f"u {displacement * 1e3:.4f} mm  stress {stress / 1e6:.3f} MPa  broken {broken}"
+	return f"u {displacement * 1e3:.4f} mm  stress {stress / 1e6:.3f} MPa  broken {broken}" + (f"  {pace.words()}" if pace else "")
 
 
 def _clock(seconds):
