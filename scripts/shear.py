@@ -52,7 +52,7 @@ sets = { # all joints alike; angles in degrees
 		**measured
 	),
 	'calibrated':
-	dict(kn=400e9, ks=200e9, cohesion=1.25e6, tension=0.5e6, friction=50., residualFriction=residualFriction, dilation=0., GfI=20., GfII=150., lastingShare=0.),
+	dict(kn=400e9, ks=200e9, cohesion=1.3e6, tension=0.5e6, friction=50., residualFriction=residualFriction, dilation=0., GfI=20., GfII=150., lastingShare=1.),
 }
 brickJoint = dict(
 	kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6
