@@ -11,7 +11,7 @@ Expected: strength 27.5 N/mm2, modulus 4100 N/mm2 (fitted between 5 % and 33 % o
 Size means the mean edge length, as in UDEC, unless sizeMeaning=sqrtArea. Tables 8 and 9 give a residual cohesion and no residual
 friction: residualFriction=zero takes that literally, kept leaves the friction angle as it is.
 joints=calibrated takes joints that soften, with strengths of `strengths` times those of Tables 8 and 9 and fracture energies GfI and GfII [N/m], alike in
-bricks and mortar; the run then goes on until the stress has fallen to 20 % of its peak, and `postpeak_energy` is stress times shortening from the peak to
+bricks and mortar (lastingShare: share of an opening that stays); the run then goes on until the stress has fallen to 20 % of its peak, and `postpeak_energy` is stress times shortening from the peak to
 there. units=plain makes each brick one block that cannot crack.
 cells=triangles fills the layers with triangular blocks; edgeSegments=n makes n joints of every edge, so that contact points lie inside edges too.
 halfRate=true repeats every run at half the loading rate and reports the change of the strength.
@@ -43,7 +43,10 @@ brick = dict(young=20e9, poisson=0.2, density=2000) # Table 7
 mortar = dict(young=5.8e9, poisson=0.2, density=2000)
 mortarJoint = dict(kn=348e9, ks=174e9, frictionAngle=radians(15), cohesion=1.4e6, cohesionResidual=0.28e6, tension=0.7e6) # Table 8, also brick to mortar
 brickJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, cohesionResidual=3e6, tension=7.5e6) # Table 9
-sets = {'paper': {'strengths': 1.0, 'GfI': 0.0, 'GfII': 0.0}, 'calibrated': {'strengths': 0.5, 'GfI': 100.0, 'GfII': 1000.0}}
+sets = {
+	'paper': {'strengths': 1.0, 'GfI': 0.0, 'GfII': 0.0, 'lastingShare': 0.0},
+	'calibrated': {'strengths': 0.5, 'GfI': 100.0, 'GfII': 1000.0, 'lastingShare': 0.0}
+}
 velocity = 0.01e-3 # [m/s]
 
 common = scenario.commonParameters(sizeMeaning='edge', lloyd=3, steps=30000, alpha=0.2)
@@ -70,7 +73,7 @@ softening.takeScatter(p)
 softens = p.GfI > 0
 scenario.require(p.solver == 'steps' or not softens, 'compression: solver=events knows brittle joints only, got GfI=%g' % p.GfI)
 for joint in mortarJoint, brickJoint:
-	joint.update({name: p.strengths * joint[name] for name in ('cohesion', 'cohesionResidual', 'tension')}, GfI=p.GfI, GfII=p.GfII)
+	joint.update({name: p.strengths * joint[name] for name in ('cohesion', 'cohesionResidual', 'tension')}, GfI=p.GfI, GfII=p.GfII, lastingShare=p.lastingShare)
 area, last = p.width * thickness, 0.2 if softens else 0.5 # a run ends at this share of the strength
 
 
@@ -192,7 +195,9 @@ with Session(p) as session:
 				run.add('steep_share_mortar-mortar', '1', cracks.steepShare('mortar-mortar'))
 				run.curve(strain_permille=1e3 * strain, stress_MPa=stress / 1e6, lateral_permille=1e3 * lateral, broken=broken)
 				run.model(model, steps=O.iter, **engineCosts(model, O.iter))
-				run.quality(unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max())
+				run.quality(
+					unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max(), energy_error=energies.error() if softens else None
+				)
 			if seed == p.seed:
 				session.picture('cracks.png', pictures.drawCracks, model, title='Prism in compression, seed %d' % seed)
 				if p.sheets: pictures.drawSheets(session, film, model, 'Prism in compression, seed %d' % seed)

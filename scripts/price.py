@@ -39,6 +39,7 @@ p = scenario.parameters({'part': '', 'scene': 'tension', 'quick': True}, {
 folder = Path('out/price')
 window = 100 if p.quick else 400 # steps
 repetitions = 15 if p.quick else 45 # of every timed window
+segments = 2, 4 # joints of an edge, beside one
 writeEvery, lookEvery, recordEvery = 1000, 100, 50 # steps between ParaView files, looks at the stability, gauge readings
 
 # ---- the scenes
@@ -72,13 +73,13 @@ def addGeneralContact():
 	find('BlockLoop').contact = True
 
 
-def tension():
+def tension(edgeSegments=1):
 	"""A couplet of 100 x 115 mm with a mortar layer of 2 mm blocks, pulled until some joints have broken."""
 	O.reset()
 	O.materials.append(BlockMat(label='unit', **unit))
 	O.materials.append(BlockMat(label='mortar', young=2.974e9, poisson=0.2, density=1250))
 	model, length, low, high = BlockModel(thickness=0.05), 0.1, 0.05, 0.065
-	model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=2e-3, lloyd=1, seed=1, mergeFraction=0.1)
+	model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=2e-3, lloyd=1, seed=1, mergeFraction=0.1, edgeSegments=edgeSegments)
 	model.addRegion(rectangle(0, 0, length, low), 'unit', zoneSize=8e-3)
 	model.addRegion(rectangle(0, high, length, high + low), 'unit', zoneSize=8e-3)
 	model.bond(joints(joint, joint))
@@ -120,9 +121,10 @@ def runUntil(condition, what, most=20000):
 def states():
 	"""Builds the scenes, brings them to where they are measured and saves them."""
 	broken = lambda model: np.count_nonzero(np.isin(model.pointStatus, (1, 2)))
-	model = tension()
-	runUntil(lambda: broken(model) >= 20, 'the first crack in tension')
-	save('tension', model)
+	for n in (1, *segments):
+		model = tension(n)
+		runUntil(lambda: broken(model) >= 20, 'the first crack in tension')
+		save('tension' if n == 1 else 'tension-%d' % n, model)
 	model = compression()
 	O.run(400, True)
 	save('compression', model)
@@ -171,9 +173,9 @@ def addExport(model):
 
 
 class Row:
-	"""A feature: its name, how it is switched on, and how often it works (1: as often as in the window)."""
-	def __init__(self, name, switch, share=1):
-		self.name, self.switch, self.share = name, switch, share
+	"""A feature: its name, how it is switched on, how often it works (1: as often as in the window), and the state it has if it is not the scene's."""
+	def __init__(self, name, switch, share=1, state=''):
+		self.name, self.switch, self.share, self.state = name, switch, share, state
 
 
 rows = [
@@ -196,6 +198,7 @@ rows = [
 	Row('ParaView files, every %d steps' % writeEvery, addExport, window / writeEvery)
 ]
 rows.append(Row('servo', lambda model: addBehindForces(BlockServo(groups=[model.groups[-1]], floor=1))))
+if p.scene == 'tension': rows += [Row('edges in %d joints' % n, None, state='tension-%d' % n) for n in segments]
 if p.scene == 'crushed': rows = [row for row in rows if 'general contact' not in row.name]
 
 features = { # where their code is
@@ -214,20 +217,23 @@ features = { # where their code is
 }
 
 
-def start(switch=None):
+bare = Row('bare', None)
+
+
+def start(row=bare):
 	"""The scene's state, with one feature more; a few steps behind the switch, which may change masses."""
-	O.load(str(folder / (p.scene + '.yade')))
+	O.load(str(folder / ((row.state or p.scene) + '.yade')))
 	model = sceneModel()
-	if switch: switch(model)
+	if row.switch: row.switch(model)
 	O.run(recordEvery + 1, True)
 	return model
 
 
 def counts():
 	marks = Marks('build/price/libmarks.so')
-	for name, switch in [('bare', None), ('bare again', None)] + [(row.name, row.switch) for row in rows]:
-		start(switch)
-		with marks.counting(name):
+	for row in [bare, Row('bare again', None)] + rows:
+		start(row)
+		with marks.counting(row.name):
 			O.run(window, True)
 
 
@@ -235,11 +241,11 @@ def times():
 	"""CPU times of a step [ns], one a turn; features take turns, because the machine's speed changes from second to second."""
 	found = {}
 	for _ in range(repetitions):
-		for name, switch in [('bare', None)] + [(row.name, row.switch) for row in rows]:
-			start(switch)
+		for row in [bare] + rows:
+			start(row)
 			begun = time.process_time()
 			O.run(window, True)
-			found.setdefault(name, []).append(1e9 * (time.process_time() - begun) / window)
+			found.setdefault(row.name, []).append(1e9 * (time.process_time() - begun) / window)
 	(folder / (p.scene + '.times.json')).write_text(json.dumps(found))
 
 

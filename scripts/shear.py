@@ -14,7 +14,7 @@ correlation length.
 
 Size means sqrt(mean area) unless sizeMeaning=edge. Loading starts at the first crack (jump) and is a fifth as fast as said (approach) until the peak is passed;
 servo=true lets the unbalanced force set the speed instead. kn, ks, cohesion, tension, friction, residualFriction, dilation (angles in degrees), GfI and
-GfII [N/m] show what governs the result; what is not given is that of the joints' set, Table 5 by default.
+GfII [N/m] and lastingShare show what governs the result; what is not given is that of the joints' set, Table 5 by default.
 units=voronoi makes bricks of blocks, with edges of brickZone, that could crack; plain ones are one elastic block with zones of that size.
 cells=triangles fills the layers with triangular blocks; edgeSegments=n makes n joints of every edge, so that contact points lie inside edges too.
 halfRate=true repeats every run at half the loading rate and reports the change of the peak.
@@ -45,15 +45,15 @@ length, brickHeight, thickness, mortarHeight = 0.2, 0.05, 0.05, 0.015 # [m]
 brick = dict(young=16.7e9, poisson=0.2, density=1900) # Table 4
 mortar = dict(young=2.974e9, poisson=0.2, density=3250)
 residualFriction = degrees(atan(experiments.residualFriction))
-measured = {name: softening.measured[name] for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII')}
+measured = {name: softening.measured[name] for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII', 'lastingShare')}
 sets = { # all joints alike; angles in degrees
-	'paper': dict(kn=400e9, ks=200e9, cohesion=3e6, tension=1.5e6, friction=45., residualFriction=36., dilation=0., GfI=0., GfII=0.), # Table 5
+	'paper': dict(kn=400e9, ks=200e9, cohesion=3e6, tension=1.5e6, friction=45., residualFriction=36., dilation=0., GfI=0., GfII=0., lastingShare=0.), # Table 5
 	'measured': dict(
 		friction=degrees(softening.measured['frictionAngle']), residualFriction=residualFriction, dilation=0.,
 		**measured
 	),
 	'calibrated':
-	dict(kn=400e9, ks=200e9, cohesion=1.25e6, tension=0.5e6, friction=50., residualFriction=residualFriction, dilation=0., GfI=20., GfII=150.),
+	dict(kn=400e9, ks=200e9, cohesion=1.3e6, tension=0.5e6, friction=50., residualFriction=residualFriction, dilation=0., GfI=20., GfII=150., lastingShare=1.),
 }
 brickJoint = dict(
 	kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6
@@ -78,7 +78,7 @@ softens = p.GfI > 0
 scenario.require(p.solver == 'steps' or not softens, 'shear: solver=events knows brittle joints only, got GfI=%g' % p.GfI)
 joint = dict(
 	kn=p.kn, ks=p.ks, frictionAngle=radians(p.friction), frictionAngleResidual=radians(p.residualFriction), dilationAngle=radians(p.dilation),
-	cohesion=p.cohesion, tension=p.tension, GfI=p.GfI, GfII=p.GfII
+	cohesion=p.cohesion, tension=p.tension, GfI=p.GfI, GfII=p.GfII, lastingShare=p.lastingShare
 )
 area, low, high = length * thickness, brickHeight, brickHeight + mortarHeight
 peakExpected, residualExpected = experiments.peakShearStress(p.sigma), experiments.residualShearStress(p.sigma)
@@ -121,7 +121,7 @@ def shear(stage, seed, steps):
 		yielded=lambda: np.count_nonzero(model.pointStatus), unbalanced=lambda: model.unbalancedRatio(floor=floor)
 	)
 	if not stage.model: press(model, dt, floor)
-	approach = None if p.servo else loading.Approach(model, 'shear', p.approach) # one of them sets the speed
+	approach = None if p.servo else loading.Approach(model, 'shear', p.approach, growth=1.03 if softens else 1.1) # one of them sets the speed
 	stop = loading.Stop(displacement=p.stroke)
 	pace = Pace(model, lambda: model.groupForce('shear'), lambda: model.groupForce('bottom', axis='x'), stage.label)
 	with Progress(steps, lambda: loadingLine(record.last.displacement, record.last.stress, model, pace), label=stage.label) as progress:
@@ -183,12 +183,16 @@ with Session(p) as session:
 				run.add('crack_share_unit-mortar', '1', cracks.share('unit-mortar'))
 				run.add('uplift', 'mm', uplift[-1] * 1e3)
 				if softens:
+					run.add('fracture_energy', 'N/m', energies.spent() / area) # friction included
+					run.add('energy_above_residual', 'N/m', curves.aboveResidual(displacement, stress))
 					run.add('crack_length', '1', (cracks.areas * model.pointDamage).sum() / area) # by damage, over the section
 					for cause, energy in energies.dissipated().items():
 						run.add('dissipated_' + cause, 'N/m', energy / area)
 				run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, uplift_mm=1e3 * uplift, broken=broken)
 				run.model(model, steps=O.iter, **engineCosts(model, O.iter))
-				run.quality(unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max())
+				run.quality(
+					unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max(), energy_error=energies.error() if softens else None
+				)
 			if seed == p.seed:
 				title = 'Couplet in shear, precompression %g N/mm², seed %d' % (p.sigma / 1e6, seed)
 				session.picture('cracks.png', pictures.drawCracks, model, title=title)

@@ -46,6 +46,16 @@ def residual(x, y):
 	return y[x > 0.75 * x[-1]].mean() if x[-1] > 0 else math.nan
 
 
+def aboveResidual(x, y):
+	"""The area between y and its residual value, from the start until y first falls to it; NaN if it does not."""
+	x, y = np.asarray(x, float), np.asarray(y, float)
+	low, top = residual(x, y), int(y.argmax())
+	behind = np.flatnonzero(y[top:] <= low)
+	if not len(behind): return math.nan
+	last = top + behind[0] + 1
+	return np.trapz(np.maximum(y[:last] - low, 0), x[:last])
+
+
 def hasPeak(y):
 	"""Whether y falls by 5 % after its highest value; what only rises has not shown its peak."""
 	y = np.asarray(y, float)

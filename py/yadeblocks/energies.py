@@ -3,7 +3,9 @@
 
 	energies.spent() / section      # work that is neither stored nor kinetic: what has become heat [J/m2 = N/m]
 	energies.dissipated()           # where: {"mode_I": ..., "mode_II": ..., "friction": ..., "cap": ..., "brittle": ..., "damping": ...}
+	energies.error()                # by how much the causes miss the sum, as a share of it
 """
+import math
 
 #: Names in `O.energy` by what they mean; without joints that soften the first two and the cap are missing there.
 sinks = {
@@ -34,3 +36,9 @@ def dissipated():
 	"""By cause: opening, slip without friction, friction and crushing of joints, breaking of brittle ones, damping."""
 	entries = _entries()
 	return {cause: entries.get(name, 0.0) for cause, name in sinks.items()}
+
+
+def error():
+	"""What `dissipated` adds up to, less what was spent, by what was spent; NaN if nothing was."""
+	heat = spent()
+	return (sum(dissipated().values()) - heat) / heat if heat else math.nan

@@ -149,9 +149,9 @@ def parse(words, defaults, allowed=None, scenario="scenario"):
 			raise ParameterError(f"{scenario}.{key} {kind.rule.text}, got {values[key]!r}")
 	if "alpha" in texts and values.get("damping", "local") != "local":
 		raise ParameterError(f"{scenario}.alpha must only be given with damping=local, got damping={values['damping']}")
-	if "safety" in values and values.get("damping") == "local" and values["safety"] > 0.95 / math.sqrt(1 + values["alpha"]):
+	if "safety" in values and values.get("damping") == "local" and values["safety"] > 0.95 / math.sqrt(1 + max(0, values["alpha"])):
 		raise ParameterError(
-			f"{scenario}.safety must not exceed 0.95/sqrt(1+alpha) = {0.95 / math.sqrt(1 + values['alpha']):.3g} with damping=local, "
+			f"{scenario}.safety must not exceed 0.95/sqrt(1+alpha) = {0.95 / math.sqrt(1 + max(0, values['alpha'])):.3g} with damping=local, "
 			f"got {values['safety']}"
 		)
 	return Parameters(scenario, values)

@@ -5,7 +5,8 @@
 
 Tensile strength: Van der Pluijm 1992; cohesion, friction, residual friction: Van der Pluijm 1993 (both as in the paper, which gives no energies). Fracture
 energies of his tests, as Lourenco 1996 reports them: GfI 5 to 20 N/m for strengths of 0.3 to 0.9 N/mm2, of which the middle is taken; GfII 10 to 250 N/m for
-cohesions of 0.1 to 1.8 N/mm2, of which a value in the lower half is taken. Stiffnesses are those of the paper's tables."""
+cohesions of 0.1 to 1.8 N/mm2, of which a value in the lower half is taken. Stiffnesses are those of the paper's tables. Opening is lasting, as in the law of
+Lourenco and Rots 1997, whose parameters these are."""
 import math
 from math import atan
 
@@ -13,11 +14,12 @@ from . import experiments, scenario
 
 measured = dict(
 	kn=400e9, ks=200e9, tension=1e6 * experiments.tensileStrength[0], cohesion=1e6 * experiments.shearCohesion,
-	frictionAngle=atan(experiments.shearFriction), frictionAngleResidual=atan(experiments.residualFriction), GfI=12.0, GfII=60.0
+	frictionAngle=atan(experiments.shearFriction), frictionAngleResidual=atan(experiments.residualFriction), GfI=12.0, GfII=60.0, lastingShare=1.0
 )
 
 _positive = scenario.Rule(lambda v: v == -1 or 0 < v < math.inf, "must be positive (-1: that of the joints)")
 _notNegative = scenario.Rule(lambda v: v == -1 or 0 <= v < math.inf, "must not be negative (-1: that of the joints)")
+_share = scenario.Rule(lambda share: share == -1 or 0 <= share <= 1, "must lie in [0, 1] (-1: that of the joints)")
 _angle = scenario.Rule(lambda angle: angle == -1 or 0 <= angle < 90, "must lie in [0, 90) degrees (-1: that of the joints)")
 _keys = {
 	"kn": ("normal stiffness", "Pa/m", _positive),
@@ -30,13 +32,14 @@ _keys = {
 	"strengths": ("factor on all strengths", "", _positive),
 	"GfI": ("fracture energy in tension", "N/m", _notNegative),
 	"GfII": ("fracture energy in shear", "N/m", _notNegative),
+	"lastingShare": ("share of a softened joint's opening that stays when it closes", "", _share),
 }
 
 
 def jointKeys(*names):
 	"""Scenario keys for properties of the joints, which stand in place of those of the chosen set: `kn ks cohesion tension friction
 	residualFriction dilation
-	strengths GfI GfII`."""
+	strengths GfI GfII lastingShare`."""
 	return {name: scenario.Key(-1.0, _keys[name][0], *_keys[name][1:]) for name in names}
 
 

@@ -20,7 +20,7 @@ shortNames = {
 }
 
 #: Knobs that change the specimen or its parameters, not only the way it is computed: their points are no settings to choose for a wanted error.
-specimenKnobs = ("size", "plane", "units", "radius", "one set", "low friction")
+specimenKnobs = ("size", "plane", "units", "radius", "softening", "one set", "low friction")
 
 
 class Error(NamedTuple):
@@ -139,6 +139,10 @@ def reading(rows, names, limits=(0.05, 0.02, 0.01), most=10):
 	near = converged or [row for row in blocks if row.sound and row.laboratory.get(peak)]
 	if near:
 		lines.append(f"Laboratory: {near[0].label if slow or not converged else 'the slow run'} gives " + _laboratory(near[0], names) + ".")
+	soft = [row for row in rows if row.knob == "softening" and row.sound and not math.isnan(row.rms("reference", peak))]
+	if soft:
+		told = "; ".join(f"{row.label} {_percent(row.rms('reference', peak))} ({row.cpu:.2g} CPU s)" for row in soft)
+		lines.append(f"Against their own slow runs: {told}; against the laboratory the last gives {_laboratory(soft[-1], names)}.")
 	best = {}
 	for row in others:
 		if row.knob not in specimenKnobs and row.sound and row.laboratory.get(peak):

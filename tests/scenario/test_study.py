@@ -47,6 +47,16 @@ def test_snapBackAsAMachineSeesIt():
 	assert y[1001:] == pytest.approx(0.6 + 0.8 * (x[1001:] - 1)) # the second branch, of slope 0.8
 
 
+def test_areasBelowACurve():
+	"""Up to 1 at x = 1, down to 0.2 at x = 2, and on to 10: above 0.2 are two triangles, 0.8 high and 0.8 and 1 wide."""
+	x, y = np.array([0, 0.2, 1, 2, 10]), np.array([0, 0.2, 1, 0.2, 0.2])
+	assert curves.aboveResidual(x, y) == pytest.approx(0.32 + 0.40)
+	assert math.isnan(curves.aboveResidual([0, 1, 1.9, 2], [0, 0.9, 0.95, 1.0]))
+	assert curves.behindPeak(x, y, 0.2) == pytest.approx(0.6)
+	assert curves.behindPeak(x, y, 0.25) == pytest.approx(0.6) # the sample that is below counts
+	assert math.isnan(curves.behindPeak(x, y, 0.1))
+
+
 def test_oneSampleIsNoPeak():
 	x = np.linspace(0, 1, 401)
 	y = np.minimum(x, 0.5)

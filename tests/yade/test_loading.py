@@ -131,6 +131,17 @@ def test_approachIsSlowUpToThePeak():
 		loading.Approach(m, 'top', slow=2)
 
 
+def test_approachGrowsAsItIsTold():
+	m = couplet()
+	approach = loading.Approach(m, 'top', slow=0.1, drop=0.9, growth=1.5)
+	approach(1, 1)
+	approach(0.8, 1)
+	assert approach.speed == pytest.approx(0.15)
+	for growth in 1, 0.5, float('nan'):
+		with pytest.raises(ValueError, match='growth.*above 1'):
+			loading.Approach(m, 'top', slow=0.1, growth=growth)
+
+
 @pytest.mark.parametrize('condition, reason, step', [(dict(drop=0.5), 'drop', 5), (dict(displacement=3), 'displacement', 3), (dict(cracks=2), 'cracks', 4)])
 def test_stop(condition, reason, step):
 	stop = loading.Stop(**condition)
