@@ -168,15 +168,16 @@ def blockPoints(mode, case, lines):
 	reference = lambda specimen: {**base, **specimen, **known(specimen), "steps": slow[mode][experiment] // (2 if specimen else 1)}
 	specimens = []
 	for knob, specimen, way in lines:
-		compared = knob == "softening" or (mode == "full" and case in middle and knob != "one set"
-				and specimen != {"units": "plain"}) if specimen else (mode == "full" or case in middle) # plain bricks never crush
+		compared = knob == "softening" or (mode == "full" and case in middle and knob != "one set" and specimen != {"units": "plain"}
+							) if specimen else (mode == "full" or case in middle) # plain bricks never crush
 		label = inWords({**way, **specimen}) if knob != "one set" else inWords(way) + ", the joints of tension"
 		yield Point(case, "blocks", knob, label, experiment, {**base, **specimen, **way}, reference(specimen) if compared else None)
 		if compared and specimen not in specimens: specimens.append(specimen)
 	for specimen in specimens:
 		yield Point(
-			case, "blocks", "reference", inWords({**solver, **specimen} if known(specimen) else {"steps": reference(specimen)["steps"], **specimen}),
-			experiment, reference(specimen), reference(specimen), True
+			case, "blocks", "reference",
+			inWords({**solver, **specimen} if known(specimen) else {"steps": reference(specimen)["steps"], **specimen}), experiment,
+			reference(specimen), reference(specimen), True
 		)
 	if {} not in specimens: return
 	way = {"steps": slow[mode][experiment] // (1 if solver else 2)}
@@ -230,9 +231,9 @@ def inWords(settings):
 	"""A setting in a few words: what it is in mm, thousands of steps, and so on."""
 	words = {
 		"steps": lambda n: f"{n / 1000:g}k steps", "size": lambda x: f"{1e3 * x:g} mm", "unitSize": lambda x: f"{1e3 * x:g}",
-		"joints": lambda which: f"{which} joints that soften", "tail": lambda x: f"to {100 * x:g} %", "mortarSize": lambda x: f"/ {1e3 * x:g} mm", "radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}",
-		"units": lambda x: f"{x} units", "solver": lambda x: x, "damping": lambda x: f"{x} damping", "servo": lambda on: "servo"
-		if on else "no servo", "jump": lambda on: "jump" if on else "no jump"
+		"joints": lambda which: f"{which} joints that soften", "tail": lambda x: f"to {100 * x:g} %", "mortarSize": lambda x: f"/ {1e3 * x:g} mm",
+		"radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}", "units": lambda x: f"{x} units", "solver": lambda x: x,
+		"damping": lambda x: f"{x} damping", "servo": lambda on: "servo" if on else "no servo", "jump": lambda on: "jump" if on else "no jump"
 	}
 	return " ".join(words.get(key, lambda x: f"{key} {x}")(value) for key, value in settings.items())
 

@@ -73,7 +73,8 @@ softening.takeScatter(p)
 softens = p.GfI > 0
 scenario.require(p.solver == 'steps' or not softens, 'compression: solver=events knows brittle joints only, got GfI=%g' % p.GfI)
 for joint in mortarJoint, brickJoint:
-	joint.update({name: p.strengths * joint[name] for name in ('cohesion', 'cohesionResidual', 'tension')}, GfI=p.GfI, GfII=p.GfII, lastingShare=p.lastingShare)
+	joint.update({name: p.strengths * joint[name] for name in ('cohesion', 'cohesionResidual', 'tension')}, GfI=p.GfI, GfII=p.GfII,
+			lastingShare=p.lastingShare)
 area, last = p.width * thickness, 0.2 if softens else 0.5 # a run ends at this share of the strength
 
 

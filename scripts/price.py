@@ -216,7 +216,6 @@ features = { # where their code is
 	'servo': Feature(r'BlockServo\.', 'throttle'),
 }
 
-
 bare = Row('bare', None)
 
 

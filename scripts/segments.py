@@ -26,9 +26,9 @@ from yadeblocks.specimen import nodesWhere, rectangle
 length, height, thickness, pull = 0.2, 0.1, 0.05, 1e6 # [m], [Pa]
 rock = dict(young=16.7e9, poisson=0.2, density=2000)
 p = scenario.parameters({
-	**scenario.usualParameters(seed=1, seeds=1, threads=1, tag='', alpha=0.5, lloyd=2), 'size':
-	Key(0.01, 'size of the blocks, root of their mean area', 'm', (lambda s: 0 < s < height / 4, 'must be positive and below a quarter of the height')),
-	'stiffness': Key(100., 'of the joints, in units of Young\'s modulus by size', '', scenario.positive),
+	**scenario.usualParameters(seed=1, seeds=1, threads=1, tag='', alpha=0.5, lloyd=2), 'size': Key(
+		0.01, 'size of the blocks, root of their mean area', 'm', (lambda s: 0 < s < height / 4, 'must be positive and below a quarter of the height')
+	), 'stiffness': Key(100., 'of the joints, in units of Young\'s modulus by size', '', scenario.positive),
 	'most': Key(4, 'most joints an edge; 1, 2, 4 ... are looked at', rule=(lambda n: 1 <= n <= 16, 'must lie in [1, 16]'))
 })
 kn = p.stiffness * rock['young'] / p.size # [Pa/m]

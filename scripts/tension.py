@@ -72,11 +72,12 @@ p = scenario.parameters({
 		units='plain', cells='voronoi', edgeSegments=1, brickZone=8e-3, merge=0.2, solver='steps', jump=True, servo=False
 	), 'size': Key(0.0, 'size of the Voronoi cells; 0: of the case', 'm', (lambda s: 0 <= s < mortarHeight, 'must be smaller than the mortar layer')),
 	'case': Key('TT2', 'properties of brittle joints, see above',
-			rule=tuple(cases)), 'joints': Key('paper', 'brittle joints of the case, or joints that soften',
-								rule=('paper', *softeningSets)), **softening.jointKeys('tension', 'cohesion', 'GfI', 'GfII', 'lastingShare'),
-	'alpha': Key(-1.0, 'coefficient of local damping; -1: 0.8, or 0.3 where joints soften', rule=(lambda a: a == -1 or 0 <= a < 1, 'must lie in [0, 1)')),
-	'steps': Key(0, 'time steps for the first 0.03 mm; 0: 40000, or 10000 where joints soften', rule=(lambda n: n == 0 or n >= 1000, 'must be at least 1000')),
-	'tail': Key(0.01, 'share of the peak at which a run with joints that soften ends', rule=(lambda s: 0 < s < 1, 'must lie in (0, 1)')),
+			rule=tuple(cases)), 'joints': Key('paper', 'brittle joints of the case, or joints that soften', rule=('paper', *softeningSets)),
+	**softening.jointKeys('tension', 'cohesion', 'GfI', 'GfII', 'lastingShare'), 'alpha': Key(
+		-1.0, 'coefficient of local damping; -1: 0.8, or 0.3 where joints soften', rule=(lambda a: a == -1 or 0 <= a < 1, 'must lie in [0, 1)')
+	), 'steps': Key(
+		0, 'time steps for the first 0.03 mm; 0: 40000, or 10000 where joints soften', rule=(lambda n: n == 0 or n >= 1000, 'must be at least 1000')
+	), 'tail': Key(0.01, 'share of the peak at which a run with joints that soften ends', rule=(lambda s: 0 < s < 1, 'must lie in (0, 1)')),
 	**softening.scatterKeys, **scenario.usualParameters(halfRate=False, vtk=True, frames=10, sheets=True)
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'tension: solver=events has no rate: servo and halfRate must be false')

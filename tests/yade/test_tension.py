@@ -97,8 +97,8 @@ def test_whatIsPrinted(small):
 
 @pytest.mark.parametrize(
 	'words, line', [(['sice=2e-3'], ['sice', 'did you mean size']), (['size=0.2'], ['tension.size', 'smaller', '0.2']),
-			(['case=TT9'], ['tension.case', 'TT1', 'TT9']),
-			(['tail=1'], ['tension.tail', '(0, 1)', '1.0']), (['joints=measured', 'lastingShare=2'], ['tension.lastingShare', '[0, 1]', '2.0'])]
+			(['case=TT9'], ['tension.case', 'TT1', 'TT9']), (['tail=1'], ['tension.tail', '(0, 1)', '1.0']),
+			(['joints=measured', 'lastingShare=2'], ['tension.lastingShare', '[0, 1]', '2.0'])]
 )
 def test_refused(words, line, tmp_path):
 	code, text, out = tension(tmp_path, *words)
@@ -108,9 +108,9 @@ def test_refused(words, line, tmp_path):
 
 
 def test_jointsThatSoften(tmp_path):
-	"""Blocks of 6 mm, 2,000 steps for the first 0.03 mm, to a tenth of the peak. Measured strengths, unfitted: 0.35 within 5 % (0.341 +- 0.003 was seen at five
-	times the steps), and the energy is where O.energy says it is: what was spent is what was dissipated, to 1 %; joints have GfI = 12 by the length of their
-	cracks, within 10 %."""
+	"""Blocks of 6 mm, 2,000 steps for the first 0.03 mm, to a tenth of the peak. Measured strengths, unfitted: 0.35 within 5 %
+	(0.341 +- 0.003 was seen at five times the steps), and the energy is where O.energy says it is: what was spent is what was dissipated,
+	to 1 %; joints have GfI = 12 by the length of their cracks, within 10 %."""
 	code, text, out = tension(tmp_path, 'joints=measured', 'size=6e-3', 'sizeMeaning=sqrtArea', 'steps=2000', 'tail=0.1', 'vtk=false', 'sheets=false')
 	assert code == 0, text[-3000:]
 	result = json.loads((out / 'tension' / 'result.json').read_text())

@@ -58,9 +58,8 @@ os._exit(0)
 @pytest.mark.skipif(shutil.which('xvfb-run') is None, reason='no virtual screen: Debian\'s xvfb and xauth')
 def test_blocksAreDrawnInARealWindow(tmp_path):
 	(tmp_path / 'scene.py').write_text(scene)
-	environment = dict(
-		os.environ, PICTURES=str(tmp_path), PYTHONPATH=os.path.dirname(os.path.dirname(yadeblocks.__file__)), XDG_RUNTIME_DIR=str(tmp_path), LIBGL_ALWAYS_SOFTWARE='1'
-	)
+	folder = os.path.dirname(os.path.dirname(yadeblocks.__file__))
+	environment = dict(os.environ, PICTURES=str(tmp_path), PYTHONPATH=folder, XDG_RUNTIME_DIR=str(tmp_path), LIBGL_ALWAYS_SOFTWARE='1')
 	run = subprocess.run(['xvfb-run', '-a', 'yade', '-x', '-j1', str(tmp_path / 'scene.py')], env=environment, capture_output=True, text=True, timeout=300)
 	assert 'DRAWN' in run.stdout, run.stdout[-3000:] + run.stderr[-3000:]
 	assert "Gl1_Block.colour must be one of 'material', 'displacement'" in run.stdout

@@ -17,8 +17,7 @@ struct GLViewInfo {
 	Real     sceneRadius = 1;
 };
 
-class GlShapeFunctor
-	: public Functor1D<Shape, void, boost::mpl::vector<const shared_ptr<Shape>&, const shared_ptr<State>&, bool, const GLViewInfo&>> {
+class GlShapeFunctor : public Functor1D<Shape, void, boost::mpl::vector<const shared_ptr<Shape>&, const shared_ptr<State>&, bool, const GLViewInfo&>> {
 public:
 	GlShapeFunctor() = default;
 	virtual ~GlShapeFunctor();
