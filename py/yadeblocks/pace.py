@@ -38,7 +38,8 @@ def _stiffnesses(model):
 class Pace:
 	"""Watches a loading up to its peak, from the first crack on: before, inertia of the start is no matter.
 
-	load: the force that is brought on [N]; reaction: that of what holds against it [N], or None; their signs do not count. label: names the run in what is said.
+	load: the force that is brought on [N]; reaction: that of what holds against it [N], or None; their signs do not count.
+	label: names the run in what is said.
 	`said` is what was said, "" if nothing: that the run is too fast, once, on stderr."""
 	def __init__(self, model, load, reaction=None, label="", stream=None):
 		self.model, self.load, self.reaction, self.label, self.stream = model, load, reaction, label, stream
@@ -55,7 +56,8 @@ class Pace:
 	def __call__(self, broken):
 		"""Looks at the present state; broken: contact points, or those that are not elastic any more.
 
-		It judges the sums over all looks, whenever more is carried than ever before: behind a peak energy is set free, which is no matter of the pace."""
+		It judges the sums over all looks, whenever more is carried than ever before: behind a peak energy is set free,
+		which is no matter of the pace."""
 		if self.said: return
 		kinetic, strain, load, reaction = self.look()
 		carried = load if self.reaction is None else reaction # inertia is in the load, not in the reaction
