@@ -9,10 +9,6 @@ Blocks are drawn by the class Gl1_Block, joints and their stresses by Gl1_BlockG
 set there. Needs YADE started with its window, so without `yade -n`."""
 import time
 
-import yadeblocks
-from yade import O, Vector3
-from yade.wrapper import Gl1_Block
-
 
 def show(colour='material', zones=False, cracks=True, range=None, joints=False, stresses=False):
 	"""Opens YADE's window, or takes the one that is open, and looks straight on the blocks -> the view, see yade.qt.View.
@@ -21,6 +17,8 @@ def show(colour='material', zones=False, cracks=True, range=None, joints=False, 
 	positive) or 'damage' (the share of a block's joints that is broken); range: values of the ends of the scale, those of the model by default;
 	zones, cracks: whether zones' edges and broken joints are drawn; joints, stresses: whether all joints and bars of normal stress are.
 	Errors: RuntimeError without a window, ValueError for a colour that is none of these."""
+	from yade import O, Vector3
+	from yade.wrapper import Gl1_Block
 	try:
 		from yade import qt
 	except ImportError as error:
