@@ -6,7 +6,7 @@
 // rigid blocks, contacts on and off. Every scene must be
 //   - refused, by an exception whose sentence is counted; or
 //   - stopped by the watch, which looks every 50 steps; or
-//   - in balance at its end, with the step as drawn or, what is counted apart, with one 2 to 16 times as short, which at least halves what is off (stiff
+//   - in balance at its end, with the step as drawn or, what is counted apart, with one 2 to 32 times as short, which at least halves what is off (stiff
 //     springs that part and meet every few steps): energy within 1 % of what was turned over, friction not having given more than that, and, where nothing
 //     acts from outside and nothing is damped, momentum within 1e-12 of the largest sum of |m v|, or within the rounding of the forces summed over the
 //     steps, if this is more. Scenes whose joints gave energy by dilating are counted apart, too.
@@ -236,7 +236,7 @@ Momentum momentumOf(const BlockAssembly& a)
 	return out;
 }
 
-constexpr int finest = 16; ///< steps as short as this explain what is off with longer ones
+constexpr int finest = 32; ///< steps as short as this explain what is off with longer ones
 
 const char* const energyOff = "unexplained: energy is off by ";
 
