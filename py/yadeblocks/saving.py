@@ -73,9 +73,34 @@ def write(path, save):
 	files.replace(path, content + sealOf(content, path))
 
 
+def _models(O):
+	"""The models of the present scene: one, or none."""
+	return next(([body.shape.model] for body in O.bodies if type(body.shape).__name__ == "Block"), [])
+
+
+def _leave(models, file):
+	"""A model whose scene was replaced is not to be taken for the one that was loaded."""
+	for model in models:
+		model._gone = (
+			f"this model belongs to the scene that was there before {file} was loaded: "
+			"the loaded one is next(b.shape.model for b in O.bodies if isinstance(b.shape, Block))"
+		)
+
+
+def _guard(kind):
+	"""Everything of a model that was left behind refuses, except for what begins with an underscore."""
+	plain = kind.__getattribute__
+
+	def guarded(self, name):
+		if not name.startswith("_") and (gone := plain(self, "_gone")): raise RuntimeError(gone)
+		return plain(self, name)
+
+	kind.__getattribute__ = guarded
+
+
 def install():
-	"""O.save seals, O.load and O.reload look; once a session."""
-	from yade.wrapper import Omega
+	"""O.save seals, O.load and O.reload look, and say to models of the scene that was there that they are none any more; once a session."""
+	from yade.wrapper import BlockModel, Omega
 	if hasattr(Omega, "unsealedSave"): return
 	save, load, name, saved = Omega.save, Omega.load, Omega.filename, []
 
@@ -89,14 +114,26 @@ def install():
 	def loadSealed(self, file, quiet=False):
 		"""Loads a scene; a damaged file is refused, see yadeblocks.saving."""
 		if not file.startswith(":memory:") and os.path.isfile(file): verify(file)
+		before = _models(self)
 		load(self, file, quiet)
 		saved.clear()
+		_leave(before, file)
 
 	def reloadSealed(self, quiet=False):
 		"""Loads the scene anew from where it was saved or loaded last."""
 		if not self.filename: raise RuntimeError("O.reload: the scene was not saved or loaded")
 		loadSealed(self, self.filename, quiet)
 
+	loadTmp = Omega.loadTmp
+
+	def loadTmpAndLeave(self, mark="", quiet=False):
+		"""Loads a scene that O.saveTmp kept in memory."""
+		before = _models(self)
+		loadTmp(self, mark, quiet)
+		_leave(before, f"{mark or 'the scene'} of O.saveTmp")
+
+	_guard(BlockModel)
+	Omega.loadTmp = loadTmpAndLeave
 	filename = property(
 		lambda self: saved[0] if saved else name.__get__(self), doc="Filename under which the simulation was saved or loaded last; None if not."
 	)

@@ -55,7 +55,7 @@ def test_single(look):
 	model.insert()
 	O.dt, O.engines = 1e-3, engines([], alpha=0.5)
 	look.run(5000)
-	look.equal('reaction by weight', model.groupForce('low') / (model.mass.sum() * g), 1, 1e-8)
+	look.equal('reaction by weight', model.groupForce('low', axis='y') / (model.mass.sum() * g), 1, 1e-8)
 
 
 @case('10,000 blocks', 'a block of 1 m pressed together, with the engines of general contact; energy balances', slow=True)

@@ -73,11 +73,22 @@ def model():
 	return next(b.shape.model for b in O.bodies if isinstance(b.shape, Block))
 
 
+def forces(model, group):
+	"""Of a group along each of the axes that it acts along [N]."""
+	found = []
+	for axis in 'xy':
+		try:
+			found.append(model.groupForce(group, axis=axis))
+		except ValueError: # not along this one
+			pass
+	return found
+
+
 def state(model):
 	"""All that a step changes, as copies: arrays of numbers by name."""
 	names = 'position velocity inertia pointOpening pointSlip pointSigma pointTau pointStatus'.split()
 	out = {name: np.array(getattr(model, name)) for name in names}
-	out['groups'] = np.array([(model.groupForce(g), model.groupVelocity(g), model.groupTravelled(g), model.groupWork(g)) for g in model.groups])
+	out['groups'] = np.array([(sum(forces(model, g)), model.groupVelocity(g), model.groupTravelled(g), model.groupWork(g)) for g in model.groups])
 	out['bodies'] = np.array([tuple(b.state.pos) for b in O.bodies])
 	out['viscosity'] = np.array([e.viscosity for e in O.engines if isinstance(e, BlockIntegrator)])
 	out['energy'] = np.array([value for _, value in sorted(O.energy.items())])

@@ -69,7 +69,6 @@ def test_theBlockIsNamed():
 	assert (step, block) in ((10, 1), (11, 1)) and O.iter in (9, 10)
 
 
-@pytest.mark.xfail(reason='with the finer bricks another sign of the same instability is noticed first', strict=False)
 def test_zonesInsideOut(tmp_path):
 	"""Grid points thrown at each other, without damping: zones turn inside out."""
 	file = str(tmp_path / 'rescue.yade')
@@ -89,7 +88,7 @@ def test_zonesInsideOut(tmp_path):
 		O.engines[3].damping = 'local'
 		O.run(3000, True)
 		weight = 9.81 * model().mass.sum()
-		assert model().groupForce('low') == pytest.approx(weight, rel=1e-4) # at rest after 3000 steps; forces of 1e2 N from openings of 1e-9 +- 1e-16 m
+		assert model().groupForce('low', axis='y') == pytest.approx(weight, rel=1e-4) # at rest after 3000 steps; forces of 1e2 N from openings of 1e-9 +- 1e-16 m
 
 	goesOn() # as it was put back
 	O.load(file)

@@ -343,9 +343,48 @@ def test_forceOfAGroupAlongTwoAxes():
 	O.dt, O.engines = 1e-3, loopList(damping='local', alpha=0.5)
 	loading.settle(model, ratio=1e-6)
 	assert model.groupForce('low', axis='x') == pytest.approx(10000, rel=1e-4) and model.groupForce('low', axis='y') == pytest.approx(20000, rel=1e-4)
-	with pytest.warns(UserWarning, match='Fx . Fy'):
-		assert model.groupForce('low') == pytest.approx(30000, rel=1e-4)
+	said(['"low"', 'two forces', 'axis="x"'], lambda: model.groupForce('low')) # it was Fx + Fy
 	said(["'z'"], lambda: model.groupForce('low', axis='z'))
+
+
+# ---- blocks that nothing joins
+
+
+def test_blocksWithoutBond():
+	"""insert() without bond(): said once, with the blocks."""
+	model = pair(joints=False)
+	with pytest.warns(UserWarning, match=r'1 pair of blocks touches, or nearly, without a joint \(blocks 0 and 1, 0 m apart\)'):
+		model.insert()
+
+
+def test_regionAddedBehindBond():
+	model = pair()
+	model.addRegion(rectangle(0, 0.1, 0.1, 0.2), 'rock', zoneSize=0.05)
+	with pytest.warns(UserWarning, match=r'blocks 0 and 2, 0 m apart\)'):
+		model.insert()
+
+
+@pytest.mark.parametrize('gap, told', [(1e-9, False), (1e-5, True), (3e-4, True), (2e-3, False)])
+def test_gapsThatBondToNothing(gap, told, recwarn):
+	"""Edges of 0.05 m, of which bond() takes 1e-6 as touching; a gap of 1e-5 m looks closed, one of 2 mm is meant."""
+	pair(gap=gap).insert()
+	messages = [str(warning.message) for warning in recwarn]
+	assert len(messages) == told and all('blocks 0 and 1, %.3g m apart' % gap in message for message in messages), messages
+
+
+def test_theModelOfASceneThatWasReplaced(tmp_path):
+	"""It showed the old scene, and let itself be loaded."""
+	model = inserted()
+	O.run(10, True)
+	O.save(str(tmp_path / 'a.yade'))
+	O.run(10, True)
+	here = np.array(model.velocity)
+	O.load(str(tmp_path / 'a.yade'))
+	for use in lambda: model.velocity, lambda: model.gravity((0, -9.81)), lambda: model.thickness, lambda: model.drive('a', [0], 'x'):
+		said(['belongs to the scene that was there before', 'a.yade was loaded', 'O.bodies'], use)
+	now = O.bodies[0].shape.model
+	O.run(10, True)
+	assert np.array_equal(now.velocity, here) # the loaded one goes on
 
 
 def test_indicesBeyondAnInt():

@@ -13,7 +13,6 @@ BlockForces::~BlockForces() = default;
 
 void BlockForces::newScene()
 {
-	before     = {};
 	frictionId = fractureId = modeIId = modeIIId = capId = -1;
 	looked = saidSnapped = told = false;
 }
@@ -23,7 +22,8 @@ void BlockForces::computeForces(BlockModel& model, int threads)
 	blocks::BlockAssembly& a = model.assembly;
 	blocks::updateJointForces(a, blocks::allJoints(a), threads);
 	blocks::sumForces(a, scene->trackEnergy, threads);
-	if (!scene->trackEnergy) return;
+	blocks::JointHistory& before = a.forces.before; // kept by the assembly, which may be put back to an earlier state
+	if (!scene->trackEnergy) return before.status.clear();
 	if (before.status.size() == a.state.status.size()) blocks::bookDissipation(a, before);
 	before.take(a.state);
 }

@@ -27,9 +27,8 @@ protected:
 private:
 	void lookAtEngines(BlockModel&);
 
-	blocks::JointHistory before; ///< with O.trackEnergy
-	int                  frictionId = -1, fractureId = -1, modeIId = -1, modeIIId = -1, capId = -1;
-	bool                 saidSnapped = false;
+	int  frictionId = -1, fractureId = -1, modeIId = -1, modeIIId = -1, capId = -1;
+	bool saidSnapped = false;
 
 	const Engine*         asked     = nullptr; ///< the NewtonIntegrator that was asked for its attributes last
 	bool                  told      = false;   ///< whether what is remarkable was said

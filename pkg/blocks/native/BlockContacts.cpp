@@ -44,7 +44,7 @@ void BlockContacts::step(BlockModel& model)
 	}
 	started    = true;
 	bodiesSeen = scene->bodies->size();
-	blocks::prepareContacts(a, scene->dt);
+	blocks::prepareContacts(a, scene->dt, scene->trackEnergy);
 	showContacts(scene, model);
 	colliderRuns = a.contacts.looks;
 }

@@ -1,8 +1,29 @@
 // yade-blocks, GPL-2.0-or-later
+#include <algorithm>
 #include <blocks/python/Building.hpp>
 
 /// What Python sees of a BlockModel: its parts, and its way into the scene.
 namespace yade {
+
+namespace {
+
+	/// Models whose scene another one has replaced, and what is to be said when they are used.
+	vector<std::pair<boost::weak_ptr<Factorable>, string>> leftBehind;
+
+	string gone(const BlockModel& model)
+	{
+		for (const auto& [left, sentence] : leftBehind)
+			if (left.lock().get() == &model) return sentence;
+		return "";
+	}
+
+	void leave(BlockModel& model, const string& sentence)
+	{
+		leftBehind.erase(std::remove_if(leftBehind.begin(), leftBehind.end(), [](const auto& left) { return left.first.expired(); }), leftBehind.end());
+		leftBehind.emplace_back(model.shared_from_this(), sentence);
+	}
+
+} // namespace
 
 void BlockModelPython::visit(PythonModel& c) const
 {
@@ -11,6 +32,7 @@ void BlockModelPython::visit(PythonModel& c) const
 	defineJoints(c);
 	defineBuilding(c);
 	using py::arg;
+	c.add_property("_gone", &gone, &leave, "Why the model must not be used any more; empty if it may. yadeblocks.saving sets it and looks at it.");
 	c.def("bodyOf", &BlockModel::bodyOf, (arg("block")), "Id of the body of a block; after insert().")
 		.def("insert",
 	             &BlockModel::insert,

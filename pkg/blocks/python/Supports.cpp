@@ -103,9 +103,10 @@ namespace {
 			on[dof % 2] = true;
 		}
 		if (axis.empty()) {
-			if (on[0] && on[1]
-			    && PyErr_WarnEx(PyExc_UserWarning, "groupForce of a group along 'xy' is Fx + Fy unless axis='x' or axis='y' is given", 1))
-				throw py::error_already_set();
+			if (on[0] && on[1])
+				throw std::invalid_argument(
+					"motion group \"" + name + "\" acts along x and y, which are two forces: call groupForce(\"" + name
+					+ "\", axis=\"x\") or axis=\"y\"");
 			return g.force;
 		}
 		if (axis != "x" && axis != "y") throw std::invalid_argument("BlockModel.groupForce: axis must be 'x' or 'y', got '" + axis + "'");
@@ -159,8 +160,8 @@ void defineSupports(PythonModel& c)
 		.def("groupForce",
 	             &force,
 	             (arg("name"), arg("axis") = ""),
-	             "Force that a group puts on the blocks along an axis, in the last step [N]; without an axis the sum over those it acts along, which for "
-	             "'xy' is Fx + Fy (with a warning).")
+	             "Force that a group puts on the blocks along an axis, in the last step [N]. A group along 'xy' has two: axis='x' or 'y' is needed there. "
+	             "Errors: ValueError for a group that is not there, an axis it does not act along, or none where it has two.")
 		.def("groupVelocity", &velocity, (arg("name")), "Present velocity of a group [m/s].")
 		.def("groupTravelled", &travelled, (arg("name")), "Displacement of a group so far [m].")
 		.def("groupWork", &work, (arg("name")), "Work that a group has done on the blocks [J].")

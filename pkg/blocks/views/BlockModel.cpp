@@ -205,6 +205,23 @@ void BlockModel::writeCentroids(Scene* scene)
 	}
 }
 
+/// Tells which blocks touch, or nearly, and have no joint.
+static void warnOfUnjoined(const blocks::BlockAssembly& a)
+{
+	const auto list = blocks::unjoinedBlocks(a);
+	if (list.empty()) return;
+	string           pairs;
+	constexpr size_t shownAtMost = 5;
+	for (size_t i = 0; i < std::min(list.size(), shownAtMost); ++i)
+		pairs += (i ? "; " : "") + std::to_string(list[i].block[0]) + " and " + std::to_string(list[i].block[1]) + ", " + blocks::shown(list[i].gap, 3)
+			+ " m apart";
+	const string sentence = "BlockModel.insert: " + std::to_string(list.size()) + (list.size() == 1 ? " pair of blocks touches" : " pairs of blocks touch")
+		+ ", or nearly, without a joint (blocks " + pairs + (list.size() > shownAtMost ? "; ..." : "")
+		+ "): nothing but general contact keeps them from passing through each other. bond() after the last block joins what touches, "
+		  "bond(tolerance=...) what is further apart";
+	if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1)) throw py::error_already_set();
+}
+
 void BlockModel::insert(bool interactions)
 {
 	requireOpen("BlockModel.insert");
@@ -214,6 +231,7 @@ void BlockModel::insert(bool interactions)
 		if (body && body->shape && dynamic_cast<const Block*>(body->shape.get()))
 			throw std::runtime_error("BlockModel.insert: the scene has blocks of another model already; one model holds all blocks of a scene");
 
+	warnOfUnjoined(assembly);
 	assembly.contacts.strangers = false; // until a script asks for an array that it may write
 	size_t     rigid            = 0;
 	const auto self             = YADE_PTR_CAST<BlockModel>(shared_from_this());

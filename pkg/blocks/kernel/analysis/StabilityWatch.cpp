@@ -60,10 +60,10 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 	if (bad >= 0) return { false, a.blockOfNode(bad), notANumber };
 
 	overlaps.look(a);
+	if (overlaps.inverted >= 0) return { false, overlaps.inverted, insideOut };
 	const char* const cure    = "; joints must be stiffer or loads smaller";
 	const std::string entered = overlaps.entries == 0 ? "" : "has gone into block " + std::to_string(overlaps.through[1]) + " by more than half";
 	if (overlaps.entries > lostShare * a.blockCount()) return { false, overlaps.through[0], "it " + entered + cure };
-	if (overlaps.inverted >= 0) return { false, overlaps.inverted, insideOut };
 	if (overlaps.mean > OverlapWatch::thin) {
 		return { false,
 			 overlaps.joint.block[0],
@@ -86,7 +86,11 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 		begun    = true;
 		compared = step;
 	}
-	if (loadsChanged(a)) baseline = energy - groupWork(a) - rigidWork(a) - work - lastExcess; // no work since the last look is known to be theirs
+	if (loadsChanged(a))
+		baseline = energy - groupWork(a) - rigidWork(a) - work - lastExcess; // no work since the last look is known to be theirs
+	else
+		baseline += energyOfNewMasses(a);
+	inertia            = a.state.inertia;
 	const Real excess  = energy - groupWork(a) - rigidWork(a) - work - baseline;
 	const Real scale   = std::abs(baseline) + turnover + std::abs(work) + roundingEnergy;
 	const bool compare = step - compared >= leastInterval;
@@ -128,6 +132,16 @@ bool StabilityWatch::loadsChanged(const BlockAssembly& a)
 	const bool changed = goodAt >= 0 && (a.supports.load != loads || rigid != rigidLoads);
 	loads = a.supports.load, rigidLoads = std::move(rigid);
 	return changed;
+}
+
+/// Kinetic energy that scaled masses have brought by growing since the last look, at the present velocities: nobody put it in.
+Real StabilityWatch::energyOfNewMasses(const BlockAssembly& a) const
+{
+	Real sum = 0;
+	if (inertia.size() == a.state.inertia.size())
+		for (int n = 0; n < a.nodeCount(); ++n)
+			sum += (a.state.inertia[n] - inertia[n]) / 2 * a.state.velocity[n].squaredNorm();
+	return sum;
 }
 
 StabilityWatch::Verdict StabilityWatch::lookAtEnd(const BlockAssembly& a)

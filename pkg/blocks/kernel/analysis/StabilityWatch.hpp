@@ -48,6 +48,7 @@ public:
 
 private:
 	bool loadsChanged(const BlockAssembly&);
+	Real energyOfNewMasses(const BlockAssembly&) const;
 
 	long              goodAt = -1;
 	Real              when   = 0; ///< of the last good state [s]
@@ -61,6 +62,7 @@ private:
 	Real              lastExcess = 0;
 	long              compared   = 0;     ///< step of lastExcess
 	std::vector<Vec2> loads, rigidLoads;  ///< at the last look [N]
+	std::vector<Real> inertia;            ///< at the last look [kg]
 	Real              roundingEnergy = 0; ///< [J]
 };
 

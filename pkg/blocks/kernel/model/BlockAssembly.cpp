@@ -312,6 +312,7 @@ void BlockAssembly::rebuild()
 void BlockAssembly::restore(const State& earlier)
 {
 	state = earlier;
+	if (!forces.before.status.empty()) forces.before.take(state); // nothing is dissipated on the way back
 	noteKinds(0, joints.count());
 	listSides();
 	rebuildContacts(*this);

@@ -13,4 +13,12 @@ std::vector<Segment> detectSegments(const BlockAssembly&, Real tolerance = 1e-6)
 /// A block's present outline, with its holes [m].
 Polygon outlineOf(const BlockAssembly&, int block);
 
+/// Two blocks that touch, or nearly, and have no joint.
+struct Unjoined {
+	std::array<int, 2> block;
+	Real               gap; ///< the least distance of the ends of their common edges [m]
+};
+/// All of them, by blocks: edges that face each other, apart by no more than this share of the shorter of the two or the narrower of their blocks.
+std::vector<Unjoined> unjoinedBlocks(const BlockAssembly&, Real tolerance = 0.01);
+
 } // namespace blocks

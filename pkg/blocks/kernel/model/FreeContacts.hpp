@@ -21,7 +21,7 @@ struct EdgePair {
 	std::array<Real, 2> sigma { 0, 0 }; ///< normal stress of the ends, tension positive [Pa]
 	std::array<Real, 2> tau { 0, 0 };   ///< shear stress; positive drags the first block along e_A [Pa]
 	Real                area      = 0;  ///< of each end, in the step of the stresses [m2]
-	Real                uplift    = 0;  ///< by which the joint had dilated that became this pair; it stays [m]
+	Real                uplift    = 0;  ///< see raised(): what the joint had dilated that became this pair; below 0 what overlapped then [m]
 	Real                potential = 0;  ///< of the normal stresses, per kn and thickness, while the edges touch [m3]
 	EdgeShape           shape;
 };

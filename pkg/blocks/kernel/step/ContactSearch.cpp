@@ -2,6 +2,7 @@
 #include <CGAL/box_intersection_d.h>
 #include <algorithm>
 #include <blocks/kernel/step/ContactSearch.hpp>
+#include <blocks/kernel/step/Contacts.hpp>
 #include <blocks/kernel/step/Largest.hpp>
 #include <limits>
 #include <numeric>
@@ -148,18 +149,57 @@ namespace {
 		return Release::now;
 	}
 
-	/// Turns a broken joint into a free edge pair, which takes over its slip.
-	void release(BlockAssembly& a, int joint, int contact, bool isNew)
+	/// A pair of edges that takes a joint's place may hold so much more than the joint did, by what the joint holds or held when it broke. It is the
+	/// 1 % by which energy may be out of balance.
+	constexpr Real mayGain = 0.01;
+
+	/// Lowers edge A of a pair until the two held no more than this a step ago. What the pair holds [J].
+	Real lower(const BlockAssembly& a, const FreeContact& c, EdgePair& e, Real most, Real dt)
 	{
-		const Segment& g = a.joints.segments[joint];
+		Real energy = normalEnergyBefore(a, c, e, dt);
+		if (energy <= most) return energy;
+		auto tooHigh = [&](Real uplift) {
+			EdgePair at = e;
+			at.uplift   = uplift;
+			energy      = normalEnergyBefore(a, c, at, dt);
+			return energy > most;
+		};
+		Real       high = e.uplift, far = std::numeric_limits<Real>::epsilon() * e.shape.depthLimit;
+		const Real from = e.uplift;
+		while (tooHigh(from - far))
+			high = from - far, far *= 2;
+		Real low = from - far;
+		for (int i = 0; i < 30; ++i) { // to 1e-9 of what it is lowered by
+			const Real middle              = (low + high) / 2;
+			(tooHigh(middle) ? high : low) = middle;
+		}
+		e.uplift = low;
+		return normalEnergyBefore(a, c, e, dt);
+	}
+
+	/// Turns a broken joint into a free edge pair, which takes over its slip. With the joint the other edges of the two blocks come to act, too. They may
+	/// overlap by then, and a joint may have dilated more at one end than there is room for at the other: such pairs are lowered, so that no energy comes
+	/// from nowhere. What the joint held and its successors do not hold is the return value [J].
+	Real release(BlockAssembly& a, int joint, int contact, bool isNew, Real dt)
+	{
+		const Segment&    g   = a.joints.segments[joint];
+		const JointParams own = a.joints.of(joint);
 		a.releaseJoint(joint); // from here on it carries nothing
 		FreeContact& c = a.state.contacts[contact];
 		if (isNew || !(c.joint.kn > 0)) c.joint = a.joints.of(joint); // not those of two materials that were never bonded
+		std::vector<std::array<int, 2>> known;
+		for (const EdgePair& e : c.edges)
+			known.push_back(e.edge);
 		detect(a, c);
 		const auto key = edgesOf(a, g);
 		const auto at
 			= std::lower_bound(c.edges.begin(), c.edges.end(), key, [](const EdgePair& e, const std::array<int, 2>& k) { return e.edge < k; });
-		const bool near = at != c.edges.end() && at->edge == key;
+		const bool near   = at != c.edges.end() && at->edge == key;
+		Real       normal = 0, shear = 0; // that the joint held [J]
+		for (int p : { 2 * joint, 2 * joint + 1 }) {
+			normal += g.area * a.state.sigma[p] * a.state.sigma[p] / (2 * own.kn);
+			shear += g.area * a.state.tau[p] * a.state.tau[p] / (2 * own.ks);
+		}
 		if (near) {
 			at->area   = g.area;
 			at->uplift = (a.state.uplift[2 * joint] + a.state.uplift[2 * joint + 1]) / 2;
@@ -169,6 +209,15 @@ namespace {
 			if (near) at->slip[k] = a.state.tau[p] / c.joint.ks, at->sigma[k] = a.state.sigma[p], at->tau[k] = a.state.tau[p];
 			a.state.sigma[p] = a.state.tau[p] = 0;
 		}
+		const Real atStrength = g.area * (own.tension * own.tension / own.kn + own.cohesion * own.cohesion / own.ks);
+		const Real more       = mayGain * std::max(normal, atStrength);
+		Real       lost       = normal + (near ? 0 : shear);
+		for (EdgePair& e : c.edges)
+			if (e.edge == key)
+				lost -= lower(a, c, e, normal + more, dt);
+			else if (!std::binary_search(known.begin(), known.end(), e.edge))
+				lost -= lower(a, c, e, more, dt);
+		return lost;
 	}
 
 	/// Largest square of a distance that a grid point of a block has moved since `from` [m2].
@@ -209,30 +258,60 @@ namespace {
 		return box;
 	}
 
+	using BoxOf = CGAL::Box_intersection_d::Box_with_handle_d<Real, 2, const int*, CGAL::Box_intersection_d::ID_EXPLICIT>;
+
+	/// Which of `some` blocks may come near which other one within a step, in order. mean: velocities of all blocks [m/s].
+	std::vector<std::array<int, 2>> onTheWay(const BlockAssembly& a, const std::vector<int>& some, const std::vector<Vec2>& mean, Real dt)
+	{
+		std::vector<int> every(a.blockCount());
+		std::iota(every.begin(), every.end(), 0);
+		auto boxes = [&](const std::vector<int>& blocks, bool ofPoints) {
+			std::vector<BoxOf> list;
+			list.reserve(blocks.size());
+			for (const int& block : blocks) {
+				Box box = ofPoints ? sweptBox(a, block, Vec2::Zero(), dt) : boxOf(a, block);
+				if (!ofPoints) {
+					const Vec2 way = dt * mean[block].cwiseAbs();
+					box            = { box.low - way, box.high + way };
+				}
+				if (!box.low.allFinite() || !box.high.allFinite()) continue; // the watch will tell
+				Real low[] = { box.low.x(), box.low.y() }, high[] = { box.high.x(), box.high.y() };
+				list.emplace_back(low, high, &block);
+			}
+			return list;
+		};
+		std::vector<BoxOf>              fast = boxes(some, true), all = boxes(every, false);
+		std::vector<std::array<int, 2>> found;
+		CGAL::box_intersection_d(fast.begin(), fast.end(), all.begin(), all.end(), [&](const BoxOf& p, const BoxOf& q) {
+			if (*p.handle() != *q.handle()) found.push_back({ *p.handle(), *q.handle() });
+		});
+		std::sort(found.begin(), found.end());
+		found.erase(std::unique(found.begin(), found.end()), found.end());
+		return found;
+	}
+
 	/// Refuses blocks that come too fast for their contact with another one: they would be deep in it, or past it, before it acts.
 	void refuseTunnelling(const BlockAssembly& a, Real dt)
 	{
 		const FreeContacts& f = a.contacts;
 		std::vector<Vec2>   mean;
-		for (int b = 0; b < a.blockCount(); ++b)
-			mean.push_back(meanVelocity(a, b));
+		std::vector<int>    fast;
 		for (int b = 0; b < a.blockCount(); ++b) {
-			const Real own = fastest(a, b, Vec2::Zero());
-			if (own * dt <= mostAStep * f.leastDepth) continue;
-			const Real within = fastest(a, b, mean[b]);
-			for (int other = 0; other < a.blockCount(); ++other) {
-				if (other == b) continue;
-				const Vec2& with  = mean[other];
-				const Real  limit = mostAStep * std::min(f.depthLimit[b], f.depthLimit[other]);
-				if (((mean[b] - with).norm() + within) * dt <= limit) continue; // they move along together: most do, and need no closer look
-				const Real speed = fastest(a, b, with);
-				if (speed * dt <= limit || !sweptBox(a, b, with, dt).meets(boxOf(a, other), 0)) continue;
-				if (pairOf(a, { std::min(b, other), std::max(b, other) }) >= 0 && !bondedEdges(a, ordered(b, other)).empty()) continue;
-				throw std::runtime_error(
-					"block " + std::to_string(b) + " nears block " + std::to_string(other) + " at " + shown(speed, 6) + " m/s, "
-					+ shown(speed * dt, 3) + " m a step, and might pass through it: contacts need steps of at most " + shown(limit, 3)
-					+ " m, so O.dt must not exceed " + shown(limit / speed, 3) + " s at this speed");
-			}
+			mean.push_back(meanVelocity(a, b));
+			if (fastest(a, b, Vec2::Zero()) * dt > mostAStep * f.leastDepth) fast.push_back(b);
+		}
+		for (const auto& [b, other] : onTheWay(a, fast, mean, dt)) {
+			const Vec2& with  = mean[other];
+			const Real  limit = mostAStep * std::min(f.depthLimit[b], f.depthLimit[other]);
+			if (((mean[b] - with).norm() + fastest(a, b, mean[b])) * dt <= limit)
+				continue; // they move along together: most do, and need no closer look
+			const Real speed = fastest(a, b, with);
+			if (speed * dt <= limit || !sweptBox(a, b, with, dt).meets(boxOf(a, other), 0)) continue;
+			if (pairOf(a, ordered(b, other)) >= 0 && !bondedEdges(a, ordered(b, other)).empty()) continue;
+			throw std::runtime_error(
+				"block " + std::to_string(b) + " nears block " + std::to_string(other) + " at " + shown(speed, 6) + " m/s, "
+				+ shown(speed * dt, 3) + " m a step, and might pass through it: contacts need steps of at most " + shown(limit, 3)
+				+ " m, so O.dt must not exceed " + shown(limit / speed, 3) + " s at this speed");
 		}
 	}
 
@@ -293,7 +372,6 @@ namespace {
 	/// Pairs of blocks, not bonded, of which one has moved, and whose boxes are close enough for a contact before the next look.
 	std::vector<std::array<int, 2>> newNeighbours(const BlockAssembly& a, const std::vector<int>& moved)
 	{
-		using BoxOf = CGAL::Box_intersection_d::Box_with_handle_d<Real, 2, const int*, CGAL::Box_intersection_d::ID_EXPLICIT>;
 		std::vector<int> every(a.blockCount());
 		std::iota(every.begin(), every.end(), 0);
 		auto boxes = [&](const std::vector<int>& blocks) {
@@ -394,7 +472,7 @@ namespace {
 		f.waiting.erase(std::unique(f.waiting.begin(), f.waiting.end()), f.waiting.end());
 	}
 
-	void releaseBroken(BlockAssembly& a)
+	void releaseBroken(BlockAssembly& a, Real dt, bool account)
 	{
 		FreeContacts&                   f    = a.contacts;
 		size_t                          kept = 0;
@@ -413,8 +491,10 @@ namespace {
 		followAll(a);
 		f.waiting.resize(kept);
 		makeContacts(a, blocks);
+		Real lost = 0;
 		for (size_t i = 0; i < now.size(); ++i)
-			release(a, now[i], contactOf(a, blocks[i][0], blocks[i][1]), isFirst[i]);
+			lost += release(a, now[i], contactOf(a, blocks[i][0], blocks[i][1]), isFirst[i], dt);
+		if (account) a.state.accounts.friction += lost;
 		placeForces(a);
 		a.listSides();
 		++f.version;
@@ -450,7 +530,7 @@ void setGeneralContact(BlockAssembly& a, bool wanted)
 	rebuildContacts(a);
 }
 
-void prepareContacts(BlockAssembly& a, Real dt)
+void prepareContacts(BlockAssembly& a, Real dt, bool account)
 {
 	FreeContacts& f     = a.contacts;
 	const bool    first = !f.started; // the step may not have its length yet
@@ -464,7 +544,7 @@ void prepareContacts(BlockAssembly& a, Real dt)
 		if (!(f.odometer.sinceLook <= perAxis)) look(a, false);
 	}
 	collectBroken(a);
-	if (!f.waiting.empty()) releaseBroken(a);
+	if (!f.waiting.empty()) releaseBroken(a, dt, account);
 	if (f.strangers) f.odometer.fastest = largest(a.state.velocity.data()->data(), 2 * a.nodeCount());
 	if (!first && dt > 0 && !(f.odometer.fastest * dt <= mostAStep * f.leastDepth * std::sqrt(Real(0.5)))) refuseTunnelling(a, dt);
 }

@@ -14,8 +14,9 @@ void setGeneralContact(BlockAssembly&, bool);
 constexpr Real mostAStep = 0.25;
 
 /// Before forces: releases broken joints to free contacts and looks for neighbours, where something moved far or broke. Serial. Refuses blocks that come so
-/// fast that they might be past each other before their contact acts; dt: of the step that led here, and of the next one [s].
-void prepareContacts(BlockAssembly&, Real dt = 0);
+/// fast that they might be past each other before their contact acts; dt: of the step that led here, and of the next one [s]. With `account`, a.state.accounts
+/// gets what joints held and the free contacts that took their places do not.
+void prepareContacts(BlockAssembly&, Real dt = 0, bool account = false);
 
 /// The contact of two blocks, or -1.
 int contactOf(const BlockAssembly&, int block1, int block2);

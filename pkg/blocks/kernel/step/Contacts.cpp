@@ -40,7 +40,7 @@ namespace {
 			const int n = e.node[k + 1];
 			c[k + 1]    = { X[n].x() - o.x() + u[n].x(), X[n].y() - o.y() + u[n].y() };
 		});
-		return e.uplift > 0 ? corners(raised(points(c), e.uplift)) : c;
+		return e.uplift != 0 ? corners(raised(points(c), e.uplift)) : c;
 	}
 
 	/// ... and how fast they move, for these corners [m/s].
@@ -49,7 +49,7 @@ namespace {
 		const Vec2* v = a.state.velocity.data();
 		Corners     c;
 		eachOf<4>([&](auto k) INLINE { c[k] = { v[e.node[k]].x(), v[e.node[k]].y() }; });
-		return e.uplift > 0 ? corners(raisedVelocity(points(x), e.uplift, points(c))) : c;
+		return e.uplift != 0 ? corners(raisedVelocity(points(x), e.uplift, points(c))) : c;
 	}
 
 	Real shearEnergy(const FreeContact& c, const EdgePair& e) { return c.joint.ks / 2 * e.area * (e.slip[0] * e.slip[0] + e.slip[1] * e.slip[1]); }
@@ -197,7 +197,7 @@ namespace {
 			c.restsUntil[pair] = pathsOf(a, c.block).least;
 			if (c.looks % measuredLook == 1) { // pairs at one corner have no such distance: asking for it costs more than looking again
 				const FourPoints p     = points(x);
-				const Real       lever = 1 + 2 * e.uplift / (p[1] - p[0]).norm(); // what is raised moves more where the edge turns
+				const Real       lever = 1 + 2 * std::abs(e.uplift) / (p[1] - p[0]).norm(); // what is raised moves more where the edge turns
 				c.restsUntil[pair] += roundingShare * freeDistance(p, e.shape) / lever;
 			}
 			c.allRestUntil = std::min(c.allRestUntil, c.restsUntil[pair]);
@@ -225,7 +225,7 @@ namespace {
 				on.node       = e.node;
 				for (int n = 0; n < 4; ++n)
 					on.force[n] = { batch.fx[n][lane], batch.fy[n][lane] };
-				if (e.uplift > 0) lowerForces(points(raisedCorners(a, e)), e.uplift, on.force);
+				if (e.uplift != 0) lowerForces(points(raisedCorners(a, e)), e.uplift, on.force);
 				c.active[of.touching++] = i;
 			}
 			batch.count = 0;
@@ -233,6 +233,17 @@ namespace {
 	};
 
 } // namespace
+
+Real normalEnergyBefore(const BlockAssembly& a, const FreeContact& c, const EdgePair& e, Real dt)
+{
+	EdgePair flat = e;
+	flat.uplift   = 0;
+	FourPoints x  = points(raisedCorners(a, flat));
+	for (int i = 0; i < 4; ++i)
+		x[i] -= dt * a.state.velocity[e.node[i]];
+	const EdgeGeometry g = edgeGeometry(e.uplift != 0 ? raised(x, e.uplift) : x, e.shape);
+	return g.active() ? c.joint.kn * a.thickness * edgePotential(g) : 0;
+}
 
 void setContactJoint(BlockAssembly& a, int contact, const JointParams& joint)
 {

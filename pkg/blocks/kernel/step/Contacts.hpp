@@ -23,6 +23,9 @@ std::vector<Real> contactStiffness(const BlockAssembly&);
 Real contactEnergy(const BlockAssembly&);   ///< elastic energy of all contacts [J]
 Real contactFriction(const BlockAssembly&); ///< dissipated by friction in all contacts so far [J]
 
+/// Energy of the normal springs of a pair of edges, where its grid points were dt ago [J].
+Real normalEnergyBefore(const BlockAssembly&, const FreeContact&, const EdgePair&, Real dt);
+
 /// An end of an active edge pair as Python sees it: where, which way, how deep, how much.
 struct ContactEnd {
 	Vec2 position;   ///< midway between the edges [m]

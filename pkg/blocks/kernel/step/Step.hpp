@@ -15,10 +15,10 @@ void sumForces(BlockAssembly&, bool account = false, int threads = 1);
 /// gets what joints dissipated, and a.forces.zoneEnergy what the zones hold.
 template <class Law> void computeForces(BlockAssembly& a, const Law& law, Real dt, bool account = false, int threads = 1)
 {
-	if (a.contacts.wanted) prepareContacts(a, dt); // who may touch soon: only where something moved far or broke
-	advanceJoints(a, law, account, threads);       // motion -> opening, slip -> stresses, states -> forces on edges
-	advanceContacts(a, dt, threads);               // the same for edges that are not bonded, or no more
-	sumForces(a, account, threads);                // edges, zones, loads -> every grid point, in a fixed order
+	if (a.contacts.wanted) prepareContacts(a, dt, account); // who may touch soon: only where something moved far or broke
+	advanceJoints(a, law, account, threads);                // motion -> opening, slip -> stresses, states -> forces on edges
+	advanceContacts(a, dt, threads);                        // the same for edges that are not bonded, or no more
+	sumForces(a, account, threads);                         // edges, zones, loads -> every grid point, in a fixed order
 }
 
 /// Forces -> velocities, displacements; groups first. What it turned over is complete only if `account` says so.
