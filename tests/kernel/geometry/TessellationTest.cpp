@@ -682,6 +682,60 @@ TEST(Tessellation, whatLiesInAHolesNotchIsNotRoundIt)
 	}
 }
 
+// A turned T of squares with seeds on their lattice (case 128833 of seed 4711 of the fuzz): the wall between two seeds runs along the outline, and a
+// cell of no width lay between them.
+TEST(Tessellation, cellsOfNoWidthVanish)
+{
+	const Vec2 x(0.99691058499036012, 0.078544799536175533), y(-x.y(), x.x());
+	const auto at     = [&](Real a, Real b) -> Vec2 { return a * x + b * y; };
+	const auto region = solid({ { 1.0754553845265356, -0.91836578545418457 },
+	                            at(1, 0),
+	                            { 1.9938211699807202, 0.15708959907235107 },
+	                            { 1.9152763704445448, 1.1540001840627112 },
+	                            { 1.8367315709083691, 2.1509107690530711 },
+	                            { 2.8336421558987297, 2.229455568589247 },
+	                            { 2.7550973563625538, 3.2263661535796073 },
+	                            { 1.7581867713721937, 3.1478213540434314 },
+	                            { 0.76127618638183359, 3.069276554507256 },
+	                            { 0.83982098591800902, 2.0723659695168957 },
+	                            { 0.91836578545418457, 1.0754553845265356 },
+	                            at(0, 1),
+	                            { 0, 0 },
+	                            { 0.078544799536175533, -0.99691058499036012 } });
+	auto       o      = sized(1, 0);
+	o.mergeFraction   = 0.1;
+	o.seeds = { { 0.53772769226326778, -0.45918289272709228 }, { 1.2990038786451015, 2.6100936617801636 }, { 2.2959144636354614, 2.688638461316339 } };
+	const Cells cells = tessellate(region, o);
+	expectTiling(region, cells, 1, "turned T");
+	EXPECT_EQ(cells.cells.size(), 3u);
+}
+
+// A sliver 1e5 from the origin (case 119974 of seed 4711 of the fuzz): its coordinates are rounded to more than a billionth of a cell.
+TEST(Tessellation, farFromTheOriginWhatIsRoundedAlikeIsOne)
+{
+	const Polygon region
+		= solid({ { 128436.08760368229, 205574.11375129572 }, { 128437.08760368229, 205574.1162184345 }, { 128436.8154463184, 205574.1554862945 } });
+	for (Real mergeFraction : { 0.0, 0.1 }) {
+		auto o          = sized(0.028100713397721831, 0);
+		o.mergeFraction = mergeFraction;
+		o.seeds = { { 128436.90010368229, 205574.11635973313 }, { 128436.65010368229, 205574.1424441074 },  { 128436.27510368229, 205574.11635973313 },
+			    { 128436.65010368229, 205574.1320103577 },  { 128436.65010368229, 205574.12157660798 }, { 128436.65010368229, 205574.12679348284 },
+			    { 128437.02510368229, 205574.12157660798 }, { 128436.77510368229, 205574.11635973313 }, { 128436.77510368229, 205574.13722723254 },
+			    { 128436.40010368229, 205574.12679348284 }, { 128436.27510368229, 205574.12157660798 }, { 128436.15010368229, 205574.11635973313 },
+			    { 128436.52510368229, 205574.12679348284 }, { 128436.40010368229, 205574.11635973313 }, { 128436.52510368229, 205574.13722723254 },
+			    { 128436.52510368229, 205574.1320103577 } };
+		const Cells cells = tessellate(region, o);
+		Real        sum   = 0;
+		for (size_t i = 0; i < cells.cells.size(); ++i) {
+			const Ring ring = ringOf(cells, i);
+			EXPECT_GT(signedArea(ring), 0);
+			EXPECT_NO_THROW(requireSimple(solid(ring), "cell"));
+			sum += signedArea(ring);
+		}
+		EXPECT_NEAR(sum, signedArea(region.outer), 1e-10); // a few roundings of a coordinate, 3e-11, by the perimeter of 2
+	}
+}
+
 // Two holes with edges on one line (case 4599 of seed 402 of the fuzz): flattening left a cell whose arm of no width lay along that line, and blocks
 // that overlap by rounding. No vertex of a cell lies on another of its edges.
 TEST(Tessellation, flatteningLeavesNoArms)

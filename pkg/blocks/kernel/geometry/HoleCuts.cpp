@@ -18,11 +18,11 @@ namespace {
 	/// there is one cut, away from that place: else this edge could not be merged, as the surrounding piece would touch itself there.
 	class HoleCutter {
 	public:
-		HoleCutter(Diagram& diagram, const Walls& w, Real shortestEdge, Real size)
+		HoleCutter(Diagram& diagram, const Walls& w, Real shortestEdge, Real coincidence)
 			: d(diagram)
 			, walls(w)
 			, shortest(shortestEdge)
-			, tolerance(coincident * size)
+			, tolerance(coincidence)
 		{
 		}
 
@@ -289,6 +289,6 @@ namespace {
 
 } // namespace
 
-void cutAroundHoles(Diagram& diagram, const Walls& region, Real shortest, Real size) { HoleCutter(diagram, region, shortest, size).run(); }
+void cutAroundHoles(Diagram& diagram, const Walls& region, Real shortest, Real tolerance) { HoleCutter(diagram, region, shortest, tolerance).run(); }
 
 } // namespace blocks

@@ -4,7 +4,8 @@
 
 namespace blocks {
 
-/// Cuts pieces in two that surround holes, whole or but for less than a `shortest` edge; `size` is that of a cell [m].
-void cutAroundHoles(Diagram&, const Walls& region, Real shortest, Real size);
+/// Cuts pieces in two that surround holes, whole or but for less than a `shortest` edge; nodes within
+/// `tolerance` of each other are one [m].
+void cutAroundHoles(Diagram&, const Walls& region, Real shortest, Real tolerance);
 
 } // namespace blocks

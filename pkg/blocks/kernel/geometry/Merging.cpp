@@ -19,11 +19,11 @@ namespace {
 	/// touches stays a valid cell; otherwise nothing changes.
 	class Merger {
 	public:
-		Merger(Diagram& diagram, const Walls& w, Real shortestEdge, Real size)
+		Merger(Diagram& diagram, const Walls& w, Real shortestEdge, Real coincidence)
 			: d(diagram)
 			, walls(w)
 			, shortest(shortestEdge)
-			, tolerance(coincident * size)
+			, tolerance(coincidence)
 		{
 			around.resize(d.position.size());
 			for (size_t c = 0; c < d.pieces.size(); ++c) {
@@ -220,16 +220,18 @@ namespace {
 			return CGAL::is_simple_2(outline.begin(), outline.end(), K());
 		}
 
-		/// Where the cell's base begins: that edge from which the others are least far; and how far that is [m].
+		/// Where the cell's base begins: that edge from which the others are least far, the longest of several; and how far that is [m].
 		std::pair<size_t, Real> base(const IntRing& ring) const
 		{
 			std::pair<size_t, Real> best { 0, std::numeric_limits<Real>::infinity() };
+			Real                    longest = 0;
 			for (size_t k = 0, n = ring.size(); k < n; ++k) {
-				const Vec2 a = d.position[ring[k]], t = (d.position[ring[(k + 1) % n]] - a).normalized();
+				const Vec2 a = d.position[ring[k]], edge = d.position[ring[(k + 1) % n]] - a, t = edge.normalized();
 				Real       farthest = 0;
 				for (int node : ring)
 					farthest = std::max(farthest, cross(t, d.position[node] - a));
-				if (farthest < best.second) best = { k, farthest };
+				const bool alike = std::abs(farthest - best.second) <= tolerance; // a cell of no width: all its nodes on one line
+				if (alike ? edge.norm() > longest : farthest < best.second) best = { k, farthest }, longest = edge.norm();
 			}
 			return best;
 		}
@@ -511,6 +513,6 @@ namespace {
 
 } // namespace
 
-Cells mergeShortEdges(Diagram& diagram, const Walls& region, Real shortest, Real size) { return Merger(diagram, region, shortest, size).run(); }
+Cells mergeShortEdges(Diagram& diagram, const Walls& region, Real shortest, Real tolerance) { return Merger(diagram, region, shortest, tolerance).run(); }
 
 } // namespace blocks

@@ -5,7 +5,8 @@
 
 namespace blocks {
 
-/// Merges edges shorter than `shortest` [m], shortest first, and flattens cells thinner than it, where that is possible; `size` is that of a cell [m].
-Cells mergeShortEdges(Diagram&, const Walls& region, Real shortest, Real size);
+/// Merges edges shorter than `shortest` [m], shortest first, and flattens cells thinner than it, where that is possible; nodes within
+/// `tolerance` of each other are one [m].
+Cells mergeShortEdges(Diagram&, const Walls& region, Real shortest, Real tolerance);
 
 } // namespace blocks

@@ -120,9 +120,11 @@ Cells tessellate(const Polygon& region, const TessellationOptions& options)
 			seeds = centroids(voronoi.diagram, seeds);
 			continue;
 		}
-		const Real shortest = std::max(options.mergeFraction, coincident) * s;
-		cutAroundHoles(voronoi.diagram, walls, shortest, s);
-		const Cells cells = mergeShortEdges(voronoi.diagram, walls, shortest, s);
+		// far from the origin, coordinates are rounded to more than that
+		const Real tolerance = std::max(coincident * s, 16 * std::numeric_limits<Real>::epsilon() * largestCoordinate(region));
+		const Real shortest  = std::max(options.mergeFraction * s, tolerance);
+		cutAroundHoles(voronoi.diagram, walls, shortest, tolerance);
+		const Cells cells = mergeShortEdges(voronoi.diagram, walls, shortest, tolerance);
 		requireWhole(cells, region);
 		return cells;
 	}
