@@ -5,6 +5,7 @@ Behind what YADE writes O.save puts a seal, a checksum over all of it, in a form
 in .gz and .bz2, bytes behind the archive else. O.load looks at it first: one changed byte anywhere is found, also within the seal. A file without one, of
 a session without yadeblocks, must at least be a whole compressed or XML file; the rest is as YADE does it."""
 import bz2
+import errno
 import gzip
 import hashlib
 import os
@@ -64,7 +65,12 @@ def write(path, save):
 	if not path.parent.is_dir(): raise FileNotFoundError(2, "No such folder", str(path))
 	if _isXml(path):
 		with tempfile.TemporaryDirectory(prefix="." + path.name, dir=path.parent) as folder:
-			save(Omega(), str(Path(folder) / "scene.xml"), True)
+			try:
+				save(Omega(), str(Path(folder) / "scene.xml"), True)
+			except RuntimeError as error: # "output stream error", whatever the reason
+				disk = os.statvfs(folder) # what was written is still there
+				full = disk.f_bavail * disk.f_frsize < len(Omega().sceneToString())
+				raise OSError(*((errno.ENOSPC, os.strerror(errno.ENOSPC)) if full else (errno.EIO, str(error))), str(path)) from error
 			plain = (Path(folder) / "scene.xml").read_bytes()
 		if not plain.rstrip().endswith(b"</boost_serialization>"): raise OSError(28, "No space left on device", str(path))
 	else:
@@ -85,6 +91,12 @@ def _leave(models, file):
 			f"this model belongs to the scene that was there before {file} was loaded: "
 			"the loaded one is next(b.shape.model for b in O.bodies if isinstance(b.shape, Block))"
 		)
+
+
+def _leaveScene(O):
+	"""YADE never frees engines that were in O.engines: ours let go of what is large."""
+	for engine in O.engines:
+		if hasattr(engine, "_leaveScene"): engine._leaveScene()
 
 
 def _guard(kind):
@@ -115,6 +127,7 @@ def install():
 		"""Loads a scene; a damaged file is refused, see yadeblocks.saving."""
 		if not file.startswith(":memory:") and os.path.isfile(file): verify(file)
 		before = _models(self)
+		_leaveScene(self)
 		load(self, file, quiet)
 		saved.clear()
 		_leave(before, file)
@@ -132,7 +145,15 @@ def install():
 		loadTmp(self, mark, quiet)
 		_leave(before, f"{mark or 'the scene'} of O.saveTmp")
 
+	reset = Omega.reset
+
+	def resetAndLeave(self):
+		"""Empties all scenes."""
+		_leaveScene(self)
+		reset(self)
+
 	_guard(BlockModel)
+	Omega.reset = resetAndLeave
 	Omega.loadTmp = loadTmpAndLeave
 	filename = property(
 		lambda self: saved[0] if saved else name.__get__(self), doc="Filename under which the simulation was saved or loaded last; None if not."

@@ -37,9 +37,13 @@ class Compare:
 		error = computed / theory - 1
 		cpu = time.process_time() - self.start
 		self.rows.append(
-			dict(case=what, theory=theory, computed=computed, error=error, allowed=tolerance, source=source, cpu_s=cpu, passed=abs(error) <= tolerance)
+			dict(
+				case=what, theory=theory, computed=computed, error=error, allowed=tolerance, source=source, cpu_s=cpu,
+				passed=abs(error) <= tolerance
+			)
 		)
-		if not abs(error) <= tolerance: self.failed.append('%s: %.6g instead of %.6g, error %.1e, allowed %.1e' % (what, computed, theory, error, tolerance))
+		if not abs(error) <= tolerance:
+			self.failed.append('%s: %.6g instead of %.6g, error %.1e, allowed %.1e' % (what, computed, theory, error, tolerance))
 		self.start = time.process_time()
 
 

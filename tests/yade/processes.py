@@ -4,6 +4,8 @@ import json
 import time
 from pathlib import Path
 
+import pytest
+
 from scenes import *
 
 scripts = Path(differences.__code__.co_filename).parents[2] / 'scripts'
@@ -39,3 +41,18 @@ def result(folder, name):
 
 def withoutCost(found):
 	return {key: value for key, value in found.items() if key != 'cost'}
+
+
+@pytest.fixture
+def mounted(tmp_path):
+	"""Mounts a disk as out/."""
+	(tmp_path / 'out').mkdir()
+
+	def mount(options):
+		if subprocess.run(['mount', '-t', 'tmpfs', '-o', options, 'tmpfs', tmp_path / 'out'], capture_output=True).returncode:
+			pytest.skip('no right to mount a disk')
+		mount.done = True
+
+	mount.done = False
+	yield mount
+	if mount.done: subprocess.run(['umount', tmp_path / 'out'], check=True)

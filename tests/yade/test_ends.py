@@ -120,21 +120,6 @@ def test_outIsALinkWithinOut(tmp_path):
 	assert code == 2 and 'out/mine is a symbolic link' in text.strip().splitlines()[-1] and (tmp_path / 'theirs/result.json').read_text() == 'precious'
 
 
-@pytest.fixture
-def mounted(tmp_path):
-	"""Mounts a disk as out/."""
-	(tmp_path / 'out').mkdir()
-
-	def mount(options):
-		if subprocess.run(['mount', '-t', 'tmpfs', '-o', options, 'tmpfs', tmp_path / 'out'], capture_output=True).returncode:
-			pytest.skip('no right to mount a disk')
-		mount.done = True
-
-	mount.done = False
-	yield mount
-	if mount.done: subprocess.run(['umount', tmp_path / 'out'], check=True)
-
-
 def test_outCannotBeWrittenTo(tmp_path, mounted):
 	mounted('ro')
 	code, text = made(tmp_path)

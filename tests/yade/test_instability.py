@@ -88,7 +88,9 @@ def test_zonesInsideOut(tmp_path):
 		O.engines[3].damping = 'local'
 		O.run(3000, True)
 		weight = 9.81 * model().mass.sum()
-		assert model().groupForce('low', axis='y') == pytest.approx(weight, rel=1e-4) # at rest after 3000 steps; forces of 1e2 N from openings of 1e-9 +- 1e-16 m
+		assert model().groupForce('low', axis='y') == pytest.approx(
+			weight, rel=1e-4
+		) # at rest after 3000 steps; forces of 1e2 N from openings of 1e-9 +- 1e-16 m
 
 	goesOn() # as it was put back
 	O.load(file)

@@ -10,11 +10,12 @@ BlockEngine::~BlockEngine() = default;
 
 std::pair<BlockModel&, bool> ModelOfScene::operator()(const Scene* scene)
 {
-	if (model && model->isIn(scene)) return { *model, false };
+	const auto last = model.lock();
+	if (last && last->isIn(scene)) return { *last, false };
 	const auto& found   = BlockModel::of(scene);
-	const bool  changed = model && found != model;
-	model               = found;
-	return { *model, changed };
+	const bool  changed = known && found != last;
+	model = found, known = true;
+	return { *found, changed };
 }
 
 void holdBack() { std::this_thread::sleep_for(std::chrono::milliseconds(100)); }

@@ -13,7 +13,8 @@ public:
 	std::pair<BlockModel&, bool> operator()(const Scene*);
 
 private:
-	shared_ptr<BlockModel> model; // held, so that no other one can get its address
+	boost::weak_ptr<BlockModel> model; // YADE never lets go of an engine that was in O.engines: it must not keep a scene's memory
+	bool                        known = false;
 };
 
 /// Runs an engine's step; what it throws is held back for a moment, because O.run(n, wait=True) sees only the errors of a run
@@ -42,9 +43,16 @@ public:
 	virtual void step(BlockModel&) { }
 	/// The engine is in another scene than in its last step.
 	virtual void newScene() { }
+	/// The scene is left: what is large and belongs to it goes.
+	virtual void leaveScene() { }
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC(BlockEngine, GlobalEngine, "Base of the engines that work on the scene's :yref:`BlockModel`; not to be used itself.");
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(BlockEngine, GlobalEngine, "Base of the engines that work on the scene's :yref:`BlockModel`; not to be used itself.",
+		,
+		/*ctor*/,
+		/*py*/
+		.def("_leaveScene", &BlockEngine::leaveScene, "Frees what belongs to a scene that is left; yadeblocks.saving does this.")
+	);
 	// clang-format on
 
 private:

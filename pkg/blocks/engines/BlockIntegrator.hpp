@@ -12,6 +12,7 @@ public:
 	virtual ~BlockIntegrator();
 	void step(BlockModel&) override;
 	void newScene() override;
+	void leaveScene() override { watch = {}; }
 	void postLoad(BlockIntegrator&);
 
 	// clang-format off

@@ -285,6 +285,9 @@ void defineBuilding(PythonModel& c)
 	             "of "
 	             "the outline are divided until none is longer than zoneSize. conforming: boundary points of the blocks that are there already become its "
 	             "own where they lie on its outline, which is divided between them. Returns the block's index. "
+	             "Zones of constant strain are too stiff in bending: a cantilever deflects by 0.62, 0.86, 0.96, 0.99 of what Timoshenko has with zones of "
+	             "h/2, "
+	             "h/4, h/8, h/16 (nu 0.2; tests/verification). "
 	             "Errors: ValueError for polygons that cross themselves or another region, and zonings that do not suit; nothing is added then.")
 		.def("addRigid",
 	             &addRigid,

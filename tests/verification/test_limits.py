@@ -1,0 +1,74 @@
+# yade-blocks, GPL-2.0-or-later
+"""What the method does not do: numbers that the manual gives (py/manual/limits.md), each as it was measured."""
+from math import atan2, cos, sin, sqrt
+
+import numpy as np
+import pytest
+
+import yadeblocks # noqa: F401 (loads the plugin)
+from test_exact import begin, dynamic, strong, young
+from yade import *
+from yadeblocks.engines import loopList
+from yadeblocks.specimen import nodesWhere, rectangle
+
+
+def cantilever(parts, poisson):
+	"""Tip deflection of a beam of 4 x 1 m under a shear traction at its end, so many zones' edges over its height, by Timoshenko's."""
+	begin(poisson)
+	length, height, load = 4., 1., 1e4
+	model = BlockModel(thickness=1)
+	model.addRegion(rectangle(0, 0, length, height), 'rock', zoneSize=height / parts, zoning='regular')
+	model.bond()
+	model.drive('wall', nodesWhere(model, lambda x, y: x < 1e-9), 'xy')
+	ends = model.reference[model.edgeNodes][:, :, 0]
+	model.traction(np.flatnonzero((ends > length - 1e-9).all(axis=1)), (0, -load / height))
+	model.insert()
+	O.dt, O.engines = 1e-3, loopList(damping='local', alpha=0.3, rescueFile='')
+	O.run((600 * parts + 1500) * (6 if poisson > 0.4 else 1), True) # soft modes are slow beside a stiff volume
+	inertia, shear = height**3 / 12, young / (2 * (1 + poisson))
+	theory = load * length**3 * (1 - poisson**2) / (3 * young * inertia) + 6 / 5 * load * length / (shear * height)
+	tip = nodesWhere(model, lambda x, y: x > length - 1e-9)
+	return -model.displacement[tip, 1].mean() / theory
+
+
+slow = lambda *values: pytest.param(*values, marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize(
+	'poisson, parts, seen', [(0.2, 2, 0.62), (0.2, 4, 0.86),
+					slow(0.2, 8, 0.96),
+					slow(0.2, 16, 0.99), (0.49, 4, 0.83),
+					slow(0.49, 8, 0.92),
+					slow(0.49, 16, 0.95)]
+)
+def test_locking(poisson, parts, seen, compare):
+	"""Zones of constant strain are too stiff in bending, and more so where they cannot change their volume (plane strain)."""
+	what = "limit: cantilever, nu %g, zones of h/%d, deflection by Timoshenko's" % (poisson, parts)
+	compare(what, seen, cantilever(parts, poisson), 0.03, 'as measured; 1 would be right')
+
+
+@pytest.mark.parametrize('width, kn, seen', [(0.35, 1e10, 0.90), (0.35, 1e11, 0.90), (0.2, 1e10, 0.97)])
+def test_rockingRestitution(width, kn, seen, compare):
+	"""A rocking block hardly loses anything on a floor without damping, where Housner's lands with all its momentum about the new corner."""
+	begin()
+	height, g = 1., 9.81
+	slender = atan2(width, height)
+	model = BlockModel(thickness=1)
+	tilt = 0.5 * slender
+	c, s = cos(tilt), sin(tilt)
+	block = model.addRigid([(c * x + s * y, -s * x + c * y) for x, y in rectangle(-width, 0, 0, height)], 'rock')
+	floor = model.addRigid(rectangle(-height, -0.2, height, 0), 'rock')
+	model.bond(strong(kn=kn, ks=kn / 2, bonded=False, frictionAngle=1.2))
+	model.gravity((0, -g))
+	model.insert()
+	O.bodies[floor].state.blockedDOFs = 'xyzXYZ'
+	O.engines = loopList(contact=True, newton=dict(damping=0), **dynamic)
+	state, energy = O.bodies[block].state, lambda angle: cos(slender - angle) - cos(slender)
+	angles = [tilt]
+	while O.time < 1.5:
+		O.run(200, True)
+		axis = state.ori.toAxisAngle()
+		angles.append(tilt + axis[1] * (1 if axis[0][2] > 0 else -1) * -1)
+	other = -min(angles)
+	what = 'limit: rocking, kn %.0e, restitution (Housner: %.2f)' % (kn, 1 - 1.5 * sin(slender)**2)
+	compare(what, seen, sqrt(energy(other) / energy(tilt)), 0.03, 'as measured')
