@@ -3,10 +3,11 @@
 
 Couplets in tension (Table 3 for all joints, Lloyd 0) and in shear (Table 5, 0.5 N/mm2, Lloyd 1), sizes = sqrt(area) [m] of the blocks in the mortar; the
 bricks' zones grow with them. Each solver has a process of its own. `follow` goes on until the force has fallen to half of the peak (in the snap-backs before
-it, it falls by less), the steps, which set out at the first crack, to 0.8 of it. Their number is what gives 1 % at the usual sizes (40,000 for 0.03 mm in tension, 48,000 for 1 mm in shear up to the peak at a
-fifth of that speed), and more for smaller blocks, through which waves take more steps. CPU seconds are those of `follow`, or of jump and steps; start is that
-of YADE with building the specimen. MB is the largest memory of the process, of which YADE itself has 150 or so. steps=false leaves them out: at 115,000
-zones (tension=0.3e-3) they take half an hour. Leaves out/cost/events.csv and a table in Markdown on the terminal."""
+it, it falls by less), the steps, which set out at the first crack, to 0.8 of it. Their number is what gives 1 % at the usual sizes (40,000 for 0.03 mm in
+tension, 48,000 for 1 mm in shear up to the peak at a fifth of that speed), and more for smaller blocks, through which waves take more steps. CPU seconds are
+those of `follow`, or of jump and steps; start is that of YADE with building the specimen. MB is the largest memory of the process, of which YADE itself has
+150 or so. steps=false leaves them out: at 115,000 zones (tension=0.3e-3) they take half an hour. Leaves out/cost/events.csv and a table in Markdown on the
+terminal."""
 import csv
 import json
 import os
@@ -74,7 +75,8 @@ usual = {"tension": (2e-3 * 1.61, 40000), "shear": (3.5e-3, 48000)} # sqrt(area)
 
 def measure(**wish):
 	environment = dict(
-		os.environ, COST=json.dumps(wish), PYTHONPATH=str(root / "py"), YADEBLOCKS_PLUGIN=str(root / "build/libyadeblocks.so"), OMP_WAIT_POLICY="passive"
+		os.environ, COST=json.dumps(wish), PYTHONPATH=str(root / "py"), YADEBLOCKS_PLUGIN=str(root / "build/libyadeblocks.so"),
+		OMP_WAIT_POLICY="passive"
 	)
 	run = subprocess.run(["yade", "-n", "-x", "-j", "1", str(root / "out/cost/events.py")], env=environment, capture_output=True, text=True)
 	lines = [line for line in run.stdout.splitlines() if line.startswith("COST ")]
@@ -93,7 +95,10 @@ def main(arguments):
 	folder.mkdir(parents=True, exist_ok=True)
 	(folder / "events.py").write_text(scene)
 	rows = []
-	print("| experiment | zones | points | broken | pieces | CPU s | ms a piece | start s | MB | time steps | CPU s | MB | peak |\n|" + "---|" * 13, flush=True)
+	print(
+		"| experiment | zones | points | broken | pieces | CPU s | ms a piece | start s | MB | time steps | CPU s | MB | peak |\n|" + "---|" * 13,
+		flush=True
+	)
 	for experiment in ("tension", "shear"):
 		size0, steps0 = usual[experiment]
 		for size in map(float, keys[experiment].split(",") if keys[experiment] else ()):

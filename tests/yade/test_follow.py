@@ -76,7 +76,8 @@ def test_says_how_far_it_is_and_can_be_stopped(monkeypatch):
 	path = loading.follow(model, 'top', 'a label', displacement=1e-5)
 	assert lines[0].label == 'a label' and len(lines[0]) == len(path['force'])
 	for (share, text), force, displacement, broken in zip(lines[0], path['force'], path['displacement'], path['broken']):
-		assert share == pytest.approx(displacement / 1e-5, abs=1e-3) and text == 'u %.4f mm  force %.4g N  broken %d' % (1e3 * displacement, force, broken)
+		assert share == pytest.approx(displacement / 1e-5, abs=1e-3)
+		assert text == 'u %.4f mm  force %.4g N  broken %d' % (1e3 * displacement, force, broken)
 
 
 def test_platens_are_followed_and_leapt_with():
