@@ -1,6 +1,7 @@
 # yade-blocks, GPL-2.0-or-later
 """BlockModel.follow: from event to event, and on in time steps."""
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -48,6 +49,35 @@ def test_same_peak_and_first_crack_as_slow_loading():
 		if cracked is not None and model.groupForce('top') < 0.8 * largest: break
 	assert first in cracked
 	assert largest == pytest.approx(exact, rel=0.02) # rate and inertia, which fall with slower loading
+
+
+def test_says_how_far_it_is_and_can_be_stopped(monkeypatch):
+	model = couplet()
+	O.run(1, True)
+	seen = []
+	path = model.follow('top', progress=lambda *now: seen.append(now) or len(seen) < 5)
+	assert path['ended'] == 'stopped' and len(seen) == 5
+	assert [now[0] for now in seen] == path['displacement'].tolist() and [now[1] for now in seen] == path['force'].tolist()
+	assert [now[2] for now in seen] == path['broken'].tolist() and seen[-1][2] > 0
+
+	class Line(list):
+		"""Stands for progress.Progress, which writes only now and then."""
+		def __init__(self, total, text, label):
+			super().__init__()
+			self.total, self.text, self.label = total, text, label
+			lines.append(self)
+
+		__enter__ = lambda self: self
+		__exit__ = lambda self, *_: None
+		__call__ = lambda self, done: self.append((done / self.total, self.text()))
+
+	lines = []
+	monkeypatch.setattr(loading, 'Progress', Line)
+	path = loading.follow(model, 'top', 'a label', displacement=1e-5)
+	assert lines[0].label == 'a label' and len(lines[0]) == len(path['force'])
+	for (share, text), force, displacement, broken in zip(lines[0], path['force'], path['displacement'], path['broken']):
+		assert share == pytest.approx(displacement / 1e-5, abs=1e-3)
+		assert text == 'u %.4f mm  force %.4g N  broken %d' % (1e3 * displacement, force, broken)
 
 
 def test_platens_are_followed_and_leapt_with():
@@ -130,6 +160,18 @@ def test_goes_on_in_time_steps_behind_the_peak(tmp_path):
 	assert len(stress) > top + 10
 	assert stress[top + 1] == pytest.approx(stress[top], rel=0.01) # what small displacement left out
 	assert 0.5 * 0.5 < stress[-1] < 0.8 * stress[top] # tan 36 degrees x 0.5, more or less
+
+
+def test_compression_says_where_events_end(tmp_path):
+	"""Small displacement ends early in a prism; from there on there are time steps, and the curve has no gap."""
+	words = ['unitSize=0.025', 'mortarSize=0.006', 'solver=events', 'steps=1500', 'stroke=0.6e-3', 'vtk=false', 'sheets=false']
+	run = runYade(scripts / 'compression.py', *words, cwd=tmp_path)
+	assert run.returncode == 0, run.stderr
+	said = re.search(r'from event to event up to (\S+) N/mm2, then in time steps: (.+)', run.stdout)
+	assert said and float(said[1]) > 0 and re.search('blocks|displacement|drop|point', said[2])
+	curve = np.genfromtxt(tmp_path / 'out' / 'compression' / 'curve.csv', delimiter=',', names=True)
+	at = np.flatnonzero(np.isclose(curve['stress_MPa'], float(said[1]), rtol=5e-3))[0] # three digits
+	assert len(curve) > at + 10 and curve['stress_MPa'][at + 1] == pytest.approx(curve['stress_MPa'][at], rel=0.01)
 
 
 def test_scenarios_refuse_what_events_have_not(tmp_path):

@@ -270,3 +270,81 @@ TEST(EventPath, ABlockThatComesLooseIsReported)
 	EXPECT_EQ(loose.looseBlocks().back(), 2);
 	EXPECT_LT(loose.anchorForce(), 1e-3); // of 2e5 N
 }
+
+namespace {
+
+/// Two blocks that move as wholes, a joint between them; the upper one goes sideways or up, or down, and nothing turns.
+BlockAssembly pair(const JointParams& joint, Real vx, Real vy)
+{
+	BlockAssembly a = column(2, 0.4, 0.3, 1, 1, stone(), joint);
+	a.addGroup(driven("low", both(allDofs(a, 0, 0), allDofs(a, 0, 1)), 0));
+	a.addGroup(driven("x", allDofs(a, 1, 0), vx));
+	a.addGroup(driven("y", allDofs(a, 1, 1), vy));
+	return a;
+}
+
+/// Why following such a pair ends, whatever it had come to.
+std::string endOf(const JointParams& joint, Real vx, Real vy, FollowUntil until = {})
+{
+	BlockAssembly a = pair(joint, vx, vy);
+	return follow(a, Driver { vx != 0 ? 1 : 2, -1 }, until).ended;
+}
+
+} // namespace
+
+TEST(EventPath, EndsWithASentence)
+{
+	// Edges are 0.4 m long: a tenth is 40 mm.
+	FollowUntil far;
+	far.drop                = 0;
+	const JointParams joint = brittle(0.6e6, 1.5e6, 0.9, 0.7), whole = brittle(1e15, 1e15, 0, 0);
+	const std::string beyond = " by more than 10 % of an edge";
+	EXPECT_EQ(endOf(joint, 0, 1, far), "nothing more happens, however far the loading goes"); // the joint is open, and stays so
+	EXPECT_EQ(endOf(whole, 1, 0, far), "blocks 0 and 1 at contact point 0 have slid" + beyond + ", though bonded");
+	far.displacement = 0.041;
+	EXPECT_EQ(endOf(joint, 0, 1, far), "blocks 0 and 1 at contact point 0 have parted" + beyond);
+	EXPECT_EQ(endOf(joint, 1, 0, far), "blocks 0 and 1 at contact point 0 have slid" + beyond);
+	EXPECT_EQ(endOf(whole, 0, -1, far), "blocks 0 and 1 at contact point 0 overlap" + beyond + ", though bonded");
+	far.displacement = 1e-6;
+	EXPECT_EQ(endOf(joint, 0, 1, far), "displacement");
+	FollowUntil until;
+	EXPECT_EQ(endOf(joint, 0, 1, until), "drop");
+	until.cracks = 1;
+	EXPECT_EQ(endOf(joint, 0, 1, until), "cracks");
+}
+
+TEST(EventPath, EndsRatherThanGoOnWithAWrongNumber)
+{
+	const JointParams joint = brittle(0.6e6, 1.5e6, 0.9, 0.7);
+	BlockAssembly     a     = wall(4, 3, joint, 0, 1e-3, 0, 7);
+	LinearModel       m     = linearise(a, growing(a, 1));
+	{
+		EventPath path(m);
+		ASSERT_TRUE(path.advance());
+		PathState beyond = path.state(); // everything whole at twice the load of the first crack
+		beyond.u *= 2;
+		beyond.lambda *= 2;
+		path.restore(beyond);
+		EXPECT_FALSE(path.advance());
+		EXPECT_NE(path.ended().find("is beyond its limits by "), std::string::npos) << path.ended();
+	}
+	EventPath path(m);
+	m.zones *= 1.5; // the factors are no longer those of the model: each correction leaves half
+	EXPECT_FALSE(path.advance());
+	EXPECT_NE(path.ended().find("equilibrium is lost: "), std::string::npos) << path.ended();
+}
+
+TEST(EventPath, GroupsHaveGoneWhereTheirBlocksAre)
+{
+	// A pushed group goes on by what large displacement adds, once handed over.
+	BlockAssembly     a     = wall(4, 3, brittle(0.6e6, 1.5e6, 0.9, 0.7), 1e-3, 0, 5e6, 7);
+	const MotionGroup press = a.state.groups[2];
+	ASSERT_EQ(press.name, "press");
+	FollowUntil until;
+	until.displacement = 1e-4;
+	until.drop         = 0;
+	follow(a, Driver { 1, -1 }, until);
+	const int dof = press.dofs.front();
+	EXPECT_LT(a.state.displacement[dof / 2][dof % 2], 0);
+	EXPECT_EQ(a.state.groups[2].travelled, a.state.displacement[dof / 2][dof % 2]);
+}

@@ -379,23 +379,40 @@ Real EventPath::reaction() const
 	return f;
 }
 
-void EventPath::note(int point, PointEvent how)
+/// The largest unbalanced force by the largest force at a contact point.
+Real EventPath::imbalance()
+{
+	const Vector f = residualForce();
+	return m.unknowns > 0 && forceScale > 0 ? f.cwiseAbs().maxCoeff() / forceScale : 0;
+}
+
+/// A point of the path. False where it is none: not in equilibrium, or not admissible.
+bool EventPath::note(int point, PointEvent how)
 {
 	const bool pushed = m.unknowns > 0 && !m.loadGrowth.isZero(0);
 	notedAt           = stepCount;
 	measure();
-	here.lambda           = is.lambda;
-	here.force            = pushed ? is.lambda : reaction();
-	here.displacement     = pushed ? m.loadGrowth.dot(is.u) : is.lambda;
-	here.point            = point;
-	here.how              = how;
 	constexpr Real enough = 1e-11; // then what rounding has left is put right with the next direction
-	const Vector   f      = residualForce();
-	const Real     left   = m.unknowns > 0 && forceScale > 0 ? f.cwiseAbs().maxCoeff() / forceScale : 0;
-	worstResidual         = std::max(worstResidual, left);
+	Real           left   = imbalance();
+	if (!(left < wrong)) {
+		refresh();
+		left = imbalance();
+	}
 	if (!(left < enough)) changes = refreshAfter;
-	for (size_t i = 0; i < m.points.size(); ++i)
-		if (m.points[i].area > 0) worstInadmissible = std::max(worstInadmissible, inadmissibility(m.points[i].joint, is.modes[i], un[i], us[i]));
+	worstResidual = std::max(worstResidual, left);
+	if (!(left < wrong)) return end("equilibrium is lost: " + shown(left) + " of the largest force at a contact point is unbalanced");
+	here.lambda       = is.lambda;
+	here.force        = pushed ? is.lambda : reaction();
+	here.displacement = pushed ? m.loadGrowth.dot(is.u) : is.lambda;
+	here.point        = point;
+	here.how          = how;
+	for (size_t i = 0; i < m.points.size(); ++i) {
+		if (m.points[i].area == 0) continue;
+		const Real beyond = inadmissibility(m.points[i].joint, is.modes[i], un[i], us[i]);
+		worstInadmissible = std::max(worstInadmissible, beyond);
+		if (!(beyond < wrong)) return end("contact point " + std::to_string(i) + " is beyond its limits by " + shown(beyond) + " of its strength");
+	}
+	return true;
 }
 
 /// Whether the answer is still that of small displacement.
@@ -409,7 +426,7 @@ bool EventPath::small()
 		if (slip <= reach && std::abs(opening) <= reach) continue;
 		const std::string who
 			= "blocks " + std::to_string(p.block[0]) + " and " + std::to_string(p.block[1]) + " at contact point " + std::to_string(i);
-		const std::string by = " by more than " + shown(limits.share) + " of an edge";
+		const std::string by = " by more than " + shown(100 * limits.share) + " % of an edge";
 		return end(who + (slip > reach ? " have slid" : opening > 0 ? " have parted" : " overlap") + by + (whole ? ", though bonded" : ""));
 	}
 	return true;
@@ -455,7 +472,7 @@ bool EventPath::giveAway()
 	return true;
 }
 
-bool EventPath::settle() { return reason.empty() && giveAway() && (note(-1, PointEvent::none), small()); }
+bool EventPath::settle() { return reason.empty() && giveAway() && note(-1, PointEvent::none) && small(); }
 
 bool EventPath::advance(Real until)
 {
@@ -463,14 +480,12 @@ bool EventPath::advance(Real until)
 	if (pending.point >= 0) breakPending();
 	if (r > 0) {
 		if (!giveAway()) return false;
-		note(-1, PointEvent::none);
-		return small();
+		return note(-1, PointEvent::none) && small();
 	}
 	while (is.lambda < until && pending.point < 0) {
 		if (!step(Phase::load, until) || !giveAway() || !small()) return false;
 	}
-	note(pending.point, pending.what);
-	return true;
+	return note(pending.point, pending.what);
 }
 
 } // namespace blocks

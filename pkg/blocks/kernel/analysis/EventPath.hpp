@@ -27,7 +27,7 @@
 ///
 /// **The next event** is the first along the direction over all points, ties by index; it may lie at once, so that the modes of points at a
 /// limit suit the direction (a sliding point whose slip would reverse sticks; one that sticks at its limit slides). If a point changes too often in
-/// one place, no direction is admissible, and the path ends.
+/// one place, no direction is admissible, and the path ends. So it does where equilibrium or a strength is missed by more than `wrong`.
 ///
 /// **Breaking.** What an intact point loses is e; it is given away by r: 1 -> 0 at constant lambda. If on the way another intact point reaches its strength,
 /// lambda falls just enough to hold it there (the stiff machine's path, which includes snap-back; `Release::path`); it breaks in its turn once r = 0.
@@ -80,6 +80,7 @@ struct PathState {
 class EventPath {
 public:
 	static constexpr Real anchorShare  = 1e-7;
+	static constexpr Real wrong        = 1e-8; ///< of the largest force at a contact point, or of a strength: far above rounding, far below what matters
 	static constexpr int  refreshAfter = 32;
 
 	/// Errors: std::runtime_error where blocks can move without resistance, with their names.
@@ -168,7 +169,8 @@ private:
 	bool   countTurn(int i);
 	void   breakPending();
 	bool   end(const std::string&);
-	void   note(int point, PointEvent);
+	bool   note(int point, PointEvent);
+	Real   imbalance();
 	bool   small();
 	Real   reaction() const;
 

@@ -76,11 +76,13 @@ namespace {
 
 Real handOver(BlockAssembly& a, const LinearModel& m, EventPath& path, Real time)
 {
-	const PathState&  s = path.state();
-	std::vector<Real> before, pushes;
+	const PathState&  s       = path.state();
+	auto              placeOf = [&](const MotionGroup& g) { return a.state.displacement[g.dofs.front() / 2][g.dofs.front() % 2]; };
+	std::vector<Real> before, pushes, places;
 	for (size_t i = 0; i < a.state.groups.size(); ++i) {
 		MotionGroup& g = a.state.groups[i];
 		before.push_back(g.force);
+		places.push_back(placeOf(g));
 		if (g.drive == MotionGroup::Drive::force && m.loadGrowth[m.groupUnknown[i]] != 0) g.target = g.force + m.growth.group[i] * s.lambda;
 		pushes.push_back(g.target);
 	}
@@ -132,7 +134,7 @@ Real handOver(BlockAssembly& a, const LinearModel& m, EventPath& path, Real time
 	for (size_t i = 0; i < a.state.groups.size(); ++i) {
 		MotionGroup& g      = a.state.groups[i];
 		const bool   driven = g.drive == MotionGroup::Drive::velocity;
-		const Real   moved  = displacementOf(m, s.u, s.lambda, g.dofs.front());
+		const Real   moved  = placeOf(g) - places[i]; // with what large displacement adds
 		Real         work   = 0;
 		if (driven) {
 			g.force = 0;
