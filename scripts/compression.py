@@ -11,8 +11,8 @@ Expected: strength 27.5 N/mm2, modulus 4100 N/mm2 (fitted between 5 % and 33 % o
 Size means the mean edge length, as in UDEC, unless sizeMeaning=sqrtArea. Tables 8 and 9 give a residual cohesion and no residual
 friction: residualFriction=zero takes that literally, kept leaves the friction angle as it is.
 joints=calibrated takes joints that soften, with strengths of `strengths` times those of Tables 8 and 9 and fracture energies GfI and GfII [N/m], alike in
-bricks and mortar (lastingShare: share of an opening that stays); the run then goes on until the stress has fallen to 20 % of its peak, and `postpeak_energy` is
-stress times shortening from the peak to there. units=plain makes each brick one block that cannot crack.
+bricks and mortar (lastingShare: share of an opening that stays); the run then goes on until the stress has fallen to 20 % of its peak, and
+`postpeak_energy` is stress times shortening from the peak to there. units=plain makes each brick one block that cannot crack.
 cells=triangles fills the layers with triangular blocks; edgeSegments=n makes n joints of every edge, so that contact points lie inside edges too.
 halfRate=true repeats every run at half the loading rate and reports the change of the strength.
 solver=events goes from failure to failure (BlockModel.follow) as long as displacements are small, and in time steps from there on. It says where that was.

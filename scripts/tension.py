@@ -139,7 +139,7 @@ def pull(stage, seed, steps):
 	record.after(lambda row: film.look(model.groupTravelled('top') / stroke, row.stress, O.time))
 	with Progress(steps, lambda: loadingLine(record.last.displacement, record.last.stress, model, pace), label=stage.label) as progress:
 		record.after(lambda row: progress(O.iter))
-		record.after(lambda row: stop(model.groupTravelled('top'), row.stress, row.yielded if softens else row.broken)) # behind the peak few are cracked
+		record.after(lambda row: stop(model.groupTravelled('top'), row.stress, row.yielded if softens else row.broken))
 		if p.solver == 'events':
 			path = loading.follow(model, 'top', stage.label, gauges=[gauge], displacement=2 * stroke)
 			record.take(
