@@ -45,7 +45,7 @@ mortarJoint = dict(kn=348e9, ks=174e9, frictionAngle=radians(15), cohesion=1.4e6
 brickJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, cohesionResidual=3e6, tension=7.5e6) # Table 9
 sets = {
 	'paper': {'strengths': 1.0, 'stiffnesses': 1.0, 'GfI': 0.0, 'GfII': 0.0, 'lastingShare': 0.0},
-	'calibrated': {'strengths': 0.5, 'stiffnesses': 0.93, 'GfI': 100.0, 'GfII': 1000.0, 'lastingShare': 0.0}
+	'calibrated': {'strengths': 0.42, 'stiffnesses': 0.93, 'GfI': 200.0, 'GfII': 2000.0, 'lastingShare': 0.0}
 }
 velocity = 0.01e-3 # [m/s]
 
@@ -74,8 +74,7 @@ softens = p.GfI > 0
 scenario.require(p.solver == 'steps' or not softens, 'compression: solver=events knows brittle joints only, got GfI=%g' % p.GfI)
 for joint in mortarJoint, brickJoint:
 	joint.update({name: p.strengths * joint[name] for name in ('cohesion', 'cohesionResidual', 'tension')})
-	joint.update({name: p.stiffnesses * joint[name] for name in ('kn', 'ks')}, GfI=p.GfI, GfII=p.GfII,
-			lastingShare=p.lastingShare)
+	joint.update({name: p.stiffnesses * joint[name] for name in ('kn', 'ks')}, GfI=p.GfI, GfII=p.GfII, lastingShare=p.lastingShare)
 area, last = p.width * thickness, 0.2 if softens else 0.5 # a run ends at this share of the strength
 
 
