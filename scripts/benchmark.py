@@ -83,7 +83,8 @@ def oneSet(n):
 
 
 def soft(n, joints="measured", **more):
-	return [("softening", {"joints": joints, **more}, {"steps": steps}) for steps in n] # a method of its own, compared with its own slow runs in every mode
+	"""A method of its own: in every mode compared with its own slow runs."""
+	return [("softening", {"joints": joints, **more}, {"steps": steps}) for steps in n]
 
 
 def layers(unit, mortar):
@@ -231,7 +232,7 @@ def inWords(settings):
 	"""A setting in a few words: what it is in mm, thousands of steps, and so on."""
 	words = {
 		"steps": lambda n: f"{n / 1000:g}k steps", "size": lambda x: f"{1e3 * x:g} mm", "unitSize": lambda x: f"{1e3 * x:g}",
-		"joints": lambda which: f"{which} joints that soften", "tail": lambda x: f"to {100 * x:g} %", "mortarSize": lambda x: f"/ {1e3 * x:g} mm",
+		"joints": lambda which: f"{which} joints", "tail": lambda x: f"to {100 * x:g} %", "mortarSize": lambda x: f"/ {1e3 * x:g} mm",
 		"radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}", "units": lambda x: f"{x} units", "solver": lambda x: x,
 		"damping": lambda x: f"{x} damping", "servo": lambda on: "servo" if on else "no servo", "jump": lambda on: "jump" if on else "no jump"
 	}

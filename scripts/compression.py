@@ -10,9 +10,9 @@ force by its area, strain its path by the height.
 Expected: strength 27.5 N/mm2, modulus 4100 N/mm2 (fitted between 5 % and 33 % of the strength), vertical splitting of the bricks.
 Size means the mean edge length, as in UDEC, unless sizeMeaning=sqrtArea. Tables 8 and 9 give a residual cohesion and no residual
 friction: residualFriction=zero takes that literally, kept leaves the friction angle as it is.
-joints=calibrated takes joints that soften, with strengths of `strengths` times those of Tables 8 and 9 and fracture energies GfI and GfII [N/m], alike in
-bricks and mortar (lastingShare: share of an opening that stays); the run then goes on until the stress has fallen to 20 % of its peak, and `postpeak_energy` is
-stress times shortening from the peak to there. units=plain makes each brick one block that cannot crack.
+joints=calibrated takes joints that soften, with `strengths` and `stiffnesses` times those of Tables 8 and 9 and fracture energies GfI and GfII [N/m], alike in
+bricks and mortar (lastingShare: share of an opening that stays); the run then goes on until the stress has fallen to 20 % of its peak, and
+`postpeak_energy` is stress times shortening from the peak to there. units=plain makes each brick one block that cannot crack.
 cells=triangles fills the layers with triangular blocks; edgeSegments=n makes n joints of every edge, so that contact points lie inside edges too.
 halfRate=true repeats every run at half the loading rate and reports the change of the strength.
 solver=events goes from failure to failure (BlockModel.follow) as long as displacements are small, and in time steps from there on. It says where that was.
@@ -44,8 +44,8 @@ mortar = dict(young=5.8e9, poisson=0.2, density=2000)
 mortarJoint = dict(kn=348e9, ks=174e9, frictionAngle=radians(15), cohesion=1.4e6, cohesionResidual=0.28e6, tension=0.7e6) # Table 8, also brick to mortar
 brickJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, cohesionResidual=3e6, tension=7.5e6) # Table 9
 sets = {
-	'paper': {'strengths': 1.0, 'GfI': 0.0, 'GfII': 0.0, 'lastingShare': 0.0},
-	'calibrated': {'strengths': 0.5, 'GfI': 100.0, 'GfII': 1000.0, 'lastingShare': 0.0}
+	'paper': {'strengths': 1.0, 'stiffnesses': 1.0, 'GfI': 0.0, 'GfII': 0.0, 'lastingShare': 0.0},
+	'calibrated': {'strengths': 0.42, 'stiffnesses': 0.93, 'GfI': 200.0, 'GfII': 2000.0, 'lastingShare': 0.0}
 }
 velocity = 0.01e-3 # [m/s]
 
@@ -73,8 +73,8 @@ softening.takeScatter(p)
 softens = p.GfI > 0
 scenario.require(p.solver == 'steps' or not softens, 'compression: solver=events knows brittle joints only, got GfI=%g' % p.GfI)
 for joint in mortarJoint, brickJoint:
-	joint.update({name: p.strengths * joint[name] for name in ('cohesion', 'cohesionResidual', 'tension')}, GfI=p.GfI, GfII=p.GfII,
-			lastingShare=p.lastingShare)
+	joint.update({name: p.strengths * joint[name] for name in ('cohesion', 'cohesionResidual', 'tension')})
+	joint.update({name: p.stiffnesses * joint[name] for name in ('kn', 'ks')}, GfI=p.GfI, GfII=p.GfII, lastingShare=p.lastingShare)
 area, last = p.width * thickness, 0.2 if softens else 0.5 # a run ends at this share of the strength
 
 
@@ -114,7 +114,7 @@ def crush(stage, seed, steps):
 	middle = lambda x, y: abs(y - height / 2) < brickHeight / 2
 	left, right = nodesWhere(model, lambda x, y: middle(x, y) & (x < 1e-9)), nodesWhere(model, lambda x, y: middle(x, y) & (x > p.width - 1e-9))
 	floor, cracks = 1e-3 * mortarJoint['tension'] * area, Cracks(model)
-	stop = loading.Stop(drop=last, displacement=p.stroke)
+	stop = loading.Stop(drop=last, displacement=(1.5 if softens else 1) * p.stroke)
 	wider = Gauge(model, left, right, 'x')
 	film = Film(model, p.frames if p.vtk else 0)
 	pace = Pace(model, lambda: model.groupForce('platen'), lambda: model.groupForce('bottom'), stage.label)

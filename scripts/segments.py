@@ -15,7 +15,7 @@ import numpy as np
 
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import loading, scenario
+from yadeblocks import loading, pictures, scenario
 from yadeblocks.engines import loopList
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
@@ -83,4 +83,5 @@ with Session(p) as session:
 			run.curve(segments=np.array([row[0] for row in rows]), error=np.array([row[1] for row in rows]))
 			run.model(model, steps=O.iter)
 	session.write()
+	session.picture('cracks.png', pictures.drawCracks, model, title='Plate of Voronoi blocks, edges in %d joints' % (n // 2))
 scenario.waitIfBatch()

@@ -45,16 +45,14 @@ length, brickHeight, thickness, mortarHeight = 0.2, 0.05, 0.05, 0.015 # [m]
 brick = dict(young=16.7e9, poisson=0.2, density=1900) # Table 4
 mortar = dict(young=2.974e9, poisson=0.2, density=3250)
 residualFriction = degrees(atan(experiments.residualFriction))
+shared = dict(kn=400e9, ks=200e9, dilation=0.) # Table 5
 measured = {name: softening.measured[name] for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII', 'lastingShare')}
-alike = dict(kn=400e9, ks=200e9, dilation=0.)
 sets = { # all joints alike; angles in degrees
-	'paper': dict(alike, cohesion=3e6, tension=1.5e6, friction=45., residualFriction=36., GfI=0., GfII=0., lastingShare=0.), # Table 5
-	'measured': dict(
-		friction=degrees(softening.measured['frictionAngle']), residualFriction=residualFriction, dilation=0.,
-		**measured
+	'paper': dict(shared, cohesion=3e6, tension=1.5e6, friction=45., residualFriction=36., GfI=0., GfII=0., lastingShare=0.), # Table 5
+	'measured': dict(measured, friction=degrees(softening.measured['frictionAngle']), residualFriction=residualFriction, dilation=0.),
+	'calibrated': dict(
+		shared, cohesion=1.3e6, tension=0.5e6, friction=50., residualFriction=residualFriction, GfI=20., GfII=150., lastingShare=1.
 	),
-	'calibrated':
-	dict(alike, cohesion=1.3e6, tension=0.5e6, friction=50., residualFriction=residualFriction, GfI=20., GfII=150., lastingShare=1.),
 }
 brickJoint = dict(
 	kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6

@@ -30,6 +30,7 @@ _keys = {
 	"residualFriction": ("friction angle after failure", "degrees", _angle),
 	"dilation": ("dilation angle", "degrees", _angle),
 	"strengths": ("factor on all strengths", "", _positive),
+	"stiffnesses": ("factor on all stiffnesses of joints", "", _positive),
 	"GfI": ("fracture energy in tension", "N/m", _notNegative),
 	"GfII": ("fracture energy in shear", "N/m", _notNegative),
 	"lastingShare": ("share of a softened joint's opening that stays when it closes", "", _share),
@@ -39,7 +40,7 @@ _keys = {
 def jointKeys(*names):
 	"""Scenario keys for properties of the joints, which stand in place of those of the chosen set: `kn ks cohesion tension friction
 	residualFriction dilation
-	strengths GfI GfII lastingShare`."""
+	strengths stiffnesses GfI GfII lastingShare`."""
 	return {name: scenario.Key(-1.0, _keys[name][0], *_keys[name][1:]) for name in names}
 
 

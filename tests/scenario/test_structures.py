@@ -99,3 +99,12 @@ def test_bisection():
 			bisect(holds, 0, 1, 1e-3)
 	with pytest.raises(ValueError, match="low must be below high"):
 		bisect(lambda x: True, 1, 0, 1e-3)
+
+
+@needsYade
+def test_segments(tmp_path):
+	"""At junctions of three joints the error stays whatever the division of the edges, inside the edges it goes; the largest stress is far above 1."""
+	found = {name: value for name, (value, _) in measured(tmp_path, "segments", "most=2", "size=0.015", "stiffness=50").items()}
+	assert found["error_at_junctions_1"] > 0.08 and found["error_at_junctions_2"] > 0.08
+	assert found["error_inside_edges_2"] < found["error_at_junctions_2"] / 2
+	assert found["largest_1"] > 1.15 and found["smallest_1"] < 0.2 # at 60 degrees to the pull 0.25
