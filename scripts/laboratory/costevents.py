@@ -6,7 +6,7 @@ bricks' zones grow with them. Each solver has a process of its own. `follow` goe
 it, it falls by less), the steps, which set out at the first crack, to 0.8 of it. Their number is what gives 1 % at the usual sizes (40,000 for 0.03 mm in
 tension, 48,000 for 1 mm in shear up to the peak at a fifth of that speed), and more for smaller blocks, through which waves take more steps. CPU seconds are
 those of `follow`, or of jump and steps; start is that of YADE with building the specimen. MB is the largest memory of the process, of which YADE itself has
-150 or so. steps=false leaves them out: at 115,000 zones (tension=0.3e-3) they take half an hour. Leaves out/cost/events.csv and a table in Markdown on the
+250 or so. steps=false leaves them out: at 148,000 zones (tension=0.3e-3) they take some ten minutes. Leaves out/cost/events.csv and a table in Markdown on the
 terminal."""
 import csv
 import json
