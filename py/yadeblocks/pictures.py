@@ -97,6 +97,17 @@ def drawSheets(session, film, model, title):
 	session.picture("sheet-end.png", drawSheet, model, title=title + ", at the end")
 
 
+def drawFilm(session, film, model, title):
+	"""movie.gif or movie.mp4 of a Session whose key `movie` says so: the cracks in a Film's frames, at its peak and now."""
+	from .picturesfields import drawMovie
+	from .snapshot import Snapshot
+	from yade.wrapper import Omega
+	p = session.parameters
+	if p.movie == "none": return
+	states = [*film.states(), Snapshot(model, Omega().time, like=film.peak)]
+	session.later(drawMovie, session.folder / f"movie.{p.movie}", states, "cracks", title=title)
+
+
 @contextmanager
 def _figure(width, height):
 	"""A matplotlib figure of this size [inch] in our style; off pyplot, which belongs to YADE's own plots."""

@@ -91,6 +91,16 @@ def test_wall(tmp_path):
 	assert found["cracks_bed_tension"][0] > 0 and "cracks_head_tension" in found and "cracks_unit_tension" not in found
 
 
+@needsYade
+def test_diagonal(tmp_path):
+	"""Stronger than the joints' tension in the centre, weaker than if a bed joint slid all at once; the tension in the centre is that of a body without joints but
+	for what these give way, a fifth; the crack runs through head joints in tension and bed joints in shear."""
+	found = measured(tmp_path, "diagonal", "steps=15000")
+	assert 0.25 < found["diagonal_shear_strength"][0] and 0.4 < found["share_of_the_bound"][0] < 0.7
+	assert found["centre_tension_by_load"][0] == pytest.approx(0.5, rel=0.2)
+	assert found["cracks_head_tension"][0] > 0 and found["cracks_bed_shear"][0] > 0 and found["cracks_bed_tension"][0] == 0
+
+
 def test_bisection():
 	low, high = bisect(lambda x: x < 0.3, 0, 1, 1e-3)
 	assert low < 0.3 <= high and high - low <= 1e-3 * high
