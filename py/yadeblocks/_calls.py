@@ -36,6 +36,11 @@ def _explained(kind, name, method):
 		except TypeError as error:
 			if type(error).__name__ != "ArgumentError": raise
 			said = _said(f"{kind.__name__}.{name}", parameters, given, named)
+		if said is None and parameters is not None: # numpy's whole numbers and single precision, which Boost does not know
+			try:
+				return method(self, *map(_plain, given), **{word: _plain(value) for word, value in named.items()})
+			except TypeError as error:
+				if type(error).__name__ != "ArgumentError": raise
 		raise TypeError(said or f"{kind.__name__}.{name} was called with what it does not take; it is {kind.__name__}.{name}{_signature(parameters)}")
 
 	del call.__wrapped__ # inspect would ask Boost, which has no answer
@@ -98,6 +103,11 @@ def _fits(value, kind):
 	return True
 
 
+def _plain(value):
+	"""A number of numpy's as Python's."""
+	return value.item() if hasattr(value, "item") and getattr(value, "ndim", 1) == 0 else value
+
+
 def _closest(word, known):
 	names = {name.lower(): name for name in known}
 	close = difflib.get_close_matches(word.lower(), names, 1)
@@ -131,8 +141,11 @@ def _ofAttributes(kind, named, error):
 	wrong = re.search(r"of type (.+) from this Python object of type (.+)$", str(error))
 	type_, got = {"double": "float", "std::string": "str"}.get(wrong.group(1), wrong.group(1)), wrong.group(2)
 	if "basic_string" in type_: type_ = "str"
-	words = [word for word, value in named.items() if type(value).__name__ == got and not _fits(value, type_)]
-	if len(words) != 1: words = words[:1] if words else []
+	plain = kind()
+	words = [
+		word for word, value in named.items()
+		if type(value).__name__ == got and not _fits(value, type_) and type(getattr(plain, word, None)).__name__ in (type_, "NoneType")
+	]
 	return TypeError(f"{kind.__name__}.{words[0]} must be {_words.get(type_, type_)}, got {named[words[0]]!r}") if words else None
 
 

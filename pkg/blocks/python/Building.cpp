@@ -21,6 +21,7 @@ namespace {
 		py::object list;
 		try {
 			const py::object array = py::import("numpy").attr("asarray")(points, "float64");
+			if (py::extract<long>(array.attr("size"))() == 0) return {};
 			if (py::extract<int>(array.attr("ndim"))() == 2 && py::extract<int>(array.attr("shape")[1])() == 2) list = array.attr("tolist")();
 		} catch (const py::error_already_set&) {
 			PyErr_Clear();
