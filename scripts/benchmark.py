@@ -1,11 +1,13 @@
 # yade-blocks, GPL-2.0-or-later
 """Error against run time: our blocks, YADE's bonded spheres and its polyhedra in tension, shear and compression.
 
-	scripts/benchmark.sh [mode=quick|full|calibrate] [experiment=tension|shear|compression] [key=value ...]
+	scripts/benchmark.sh [mode=quick|full|calibrate] [experiment=tension|shear|compression|structures] [key=value ...]
 
 What is run are the tables below: each point for several seeds, a process each. A result is kept under a hash of parameters and code
 (laboratory.jobs): an interrupted benchmark continues, and nothing old is taken for new. For each experiment out/benchmark/ gets
 NAME-MODE.png (error over CPU seconds, and its reading), NAME-MODE.md (table and reading), NAME-MODE.csv and NAME-MODE-runs.csv.
+
+experiment=structures runs the other scenarios, each at three costs, against their expected values: structures.md, .csv and .png. mode=full has it, too.
 
 	mode=quick      less than ten minutes on two idle cores
 	mode=full       every knob, all stresses, finer packings: about two hours on two idle cores
@@ -31,7 +33,7 @@ house = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(house / "py"))
 
 import pandas
-from laboratory import calibration, study, tradeoff, tradeoffpicture
+from laboratory import calibration, structures, study, tradeoff, tradeoffpicture
 from laboratory.engine import EngineError
 from laboratory.jobs import Job, Jobs, machine, yadeVersion
 from yadeblocks import scenario
@@ -51,10 +53,11 @@ p = scenario.parameters({
 	"mode": "quick", "experiment": "all", "seeds": 5, "jobs": os.cpu_count() or 1, "model": "all", "limit": 1800.0, "retry": False, "scheduler": "",
 	"tls": "", "out": "out/benchmark"
 }, {
-	"mode": ("quick", "full", "calibrate"), "experiment": ("all", "tension", "shear", "compression"), "model": ("all", "blocks", *modelsOf["shear"]),
-	"seeds": scenario.atLeastOne, "jobs": scenario.atLeastOne, "limit": scenario.positive
+	"mode": ("quick", "full", "calibrate"), "experiment": ("all", "tension", "shear", "compression", "structures"),
+	"model": ("all", "blocks", *modelsOf["shear"]), "seeds": scenario.atLeastOne, "jobs": scenario.atLeastOne, "limit": scenario.positive
 }, scenario="benchmark")
-experiments = ("tension", "shear", "compression") if p.experiment == "all" else (p.experiment, )
+experiments = ("tension", "shear", "compression") if p.experiment == "all" else () if p.experiment == "structures" else (p.experiment, )
+withStructures = p.model in ("all", "blocks") and (p.experiment == "structures" or p.experiment == "all" and p.mode == "full") and p.mode != "calibrate"
 sigmas = (0.1e6, 0.5e6, 1e6) # [Pa], shear
 middlePeak, middleResidual = peakShearStress(sigmas[1])[0], residualShearStress(sigmas[1])[0] # [MPa]
 
@@ -485,7 +488,7 @@ everything = {} if p.mode == "calibrate" else {
 	experiment: [point for point in points(p.mode, experiment) if p.model in ("all", point.model)] for experiment in experiments
 }
 if p.mode == "calibrate" and not any(p.model in ("all", *modelsOf[experiment])
-					for experiment in experiments) or p.mode != "calibrate" and not any(everything.values()):
+					for experiment in experiments) or p.mode != "calibrate" and not any(everything.values()) and not withStructures:
 	sys.exit(f"benchmark: model={p.model} has nothing to {'calibrate' if p.mode == 'calibrate' else 'run'} with experiment={p.experiment}")
 stopped = False
 try:
@@ -495,7 +498,7 @@ try:
 		sys.exit()
 	jobs.do([
 		Job(point.script, point.settings, seed) for seed in range(1, p.seeds + 1) for all in everything.values() for point in all if seed in point.seeds
-	]) # seed by seed, so that an early end leaves all points
+	] + structures.jobsOf() * withStructures) # seed by seed, so that an early end leaves all points
 except KeyboardInterrupt:
 	print("interrupted: what is complete is kept; the same command continues", file=sys.stderr)
 	stopped = True
@@ -503,4 +506,5 @@ except EngineError as error:
 	sys.exit(f"benchmark: {error}")
 for experiment, all in everything.items():
 	if all: report(jobs, experiment, all) # model= may leave nothing
+if withStructures: print("\nstructures\n" + structures.report(jobs.record, jobs.folder) + f"see {jobs.folder}/structures.png, .md, .csv", flush=True)
 sys.exit(130 if stopped else 0)

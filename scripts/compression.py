@@ -62,7 +62,7 @@ p = scenario.parameters({
 	), 'residualFriction': Key('zero', 'friction of broken joints: none, or as before',
 					rule=('zero', 'kept')), 'width': Key(0.285, 'width of the prism', 'm', scenario.positive),
 	'joints': Key('paper', 'brittle joints of Tables 8 and 9, or joints that soften', rule=tuple(sets)), **softening.jointKeys(*sets['paper']),
-	**softening.scatterKeys, **scenario.usualParameters(halfRate=False, vtk=True, frames=10, sheets=True)
+	**softening.scatterKeys, **scenario.usualParameters(halfRate=False, vtk=True, frames=10, movie='none', sheets=True)
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'compression: solver=events has no rate: servo and halfRate must be false')
 if p.residualFriction == 'zero':
@@ -116,7 +116,7 @@ def crush(stage, seed, steps):
 	floor, cracks = 1e-3 * mortarJoint['tension'] * area, Cracks(model)
 	stop = loading.Stop(drop=last, displacement=(1.5 if softens else 1) * p.stroke)
 	wider = Gauge(model, left, right, 'x')
-	film = Film(model, p.frames if p.vtk else 0)
+	film = Film(model, p.frames if p.vtk or p.movie != 'none' else 0)
 	pace = Pace(model, lambda: model.groupForce('platen'), lambda: model.groupForce('bottom'), stage.label)
 	record = Recorder(
 		strain=lambda: -model.groupTravelled('platen') / height, stress=lambda: -model.groupForce('platen') / area, lateral=lambda: wider() / p.width,
@@ -202,6 +202,7 @@ with Session(p) as session:
 			if seed == p.seed:
 				session.picture('cracks.png', pictures.drawCracks, model, title='Prism in compression, seed %d' % seed)
 				if p.sheets: pictures.drawSheets(session, film, model, 'Prism in compression, seed %d' % seed)
+				pictures.drawFilm(session, film, model, 'Prism in compression, seed %d' % seed)
 				if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
 		if p.halfRate and session.wants(seed, 'half_rate_change'):
 			slow = crush(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]

@@ -66,7 +66,7 @@ p = scenario.parameters({
 	), 'afterPeak': Key(True, 'go on behind the peak, to the residual stress'),
 	'size': Key(3.5e-3, 'size of the Voronoi cells', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer')),
 	'joints': Key('paper', 'brittle joints of Table 5, or joints that soften', rule=tuple(sets)), **softening.jointKeys(*sets['paper']),
-	**softening.scatterKeys, **scenario.usualParameters(brickZone=8e-3, merge=0.1, halfRate=False, vtk=True, frames=10, sheets=True)
+	**softening.scatterKeys, **scenario.usualParameters(brickZone=8e-3, merge=0.1, halfRate=False, vtk=True, frames=10, movie='none', sheets=True)
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'shear: solver=events has no rate: servo and halfRate must be false')
 scenario.require(p.afterPeak or p.solver == 'events', 'shear: afterPeak=false needs solver=events, got solver=steps')
@@ -114,7 +114,7 @@ def shear(stage, seed, steps):
 	below, above = nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit')
 	floor, cracks = 1e-3 * max(p.sigma, joint['tension']) * area, Cracks(model)
 	slip, uplift = Gauge(model, below, above, 'x'), Gauge(model, below, above, 'y')
-	film = Film(model, p.frames if p.vtk else 0)
+	film = Film(model, p.frames if p.vtk or p.movie != 'none' else 0)
 	record = Recorder(
 		displacement=slip, stress=lambda: model.groupForce('shear') / area, uplift=uplift, broken=cracks.look,
 		yielded=lambda: np.count_nonzero(model.pointStatus), unbalanced=lambda: model.unbalancedRatio(floor=floor)
@@ -196,6 +196,7 @@ with Session(p) as session:
 				title = 'Couplet in shear, precompression %g N/mm², seed %d' % (p.sigma / 1e6, seed)
 				session.picture('cracks.png', pictures.drawCracks, model, title=title)
 				if p.sheets: pictures.drawSheets(session, film, model, title)
+				pictures.drawFilm(session, film, model, title)
 				if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
 		if p.halfRate and session.wants(seed, 'half_rate_change'):
 			slow = shear(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]

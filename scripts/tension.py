@@ -80,7 +80,7 @@ p = scenario.parameters({
 	), 'steps': Key(
 		0, 'time steps for the first 0.03 mm; 0: 40000, or 10000 where joints soften', rule=(lambda n: n == 0 or n >= 1000, 'must be at least 1000')
 	), 'tail': Key(0.01, 'share of the peak at which a run with joints that soften ends', rule=(lambda s: 0 < s < 1, 'must lie in (0, 1)')),
-	**softening.scatterKeys, **scenario.usualParameters(halfRate=False, vtk=True, frames=10, sheets=True)
+	**softening.scatterKeys, **scenario.usualParameters(halfRate=False, vtk=True, frames=10, movie='none', sheets=True)
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'tension: solver=events has no rate: servo and halfRate must be false')
 scenario.require(p.solver == 'steps' or p.joints == 'paper', 'tension: solver=events knows brittle joints only, got joints=' + p.joints)
@@ -130,7 +130,7 @@ def pull(stage, seed, steps):
 	)
 	floor, cracks = 1e-3 * unitJoint['tension'] * area, Cracks(model)
 	stop = loading.Stop(drop=p.tail, displacement=30 * stroke) if softens else loading.Stop(drop=0.5, displacement=2 * stroke)
-	film = Film(model, p.frames if p.vtk else 0)
+	film = Film(model, p.frames if p.vtk or p.movie != 'none' else 0)
 	record = Recorder(
 		displacement=gauge, stress=lambda: model.groupForce('top') / area, broken=cracks.look, yielded=lambda: np.count_nonzero(model.pointStatus),
 		unbalanced=lambda: model.unbalancedRatio(floor=floor)
@@ -221,6 +221,7 @@ with Session(p) as session:
 			if seed == p.seed:
 				session.picture('cracks.png', pictures.drawCracks, model, title='%s, seed %d' % (title, seed))
 				if p.sheets: pictures.drawSheets(session, film, model, '%s, seed %d' % (title, seed))
+				pictures.drawFilm(session, film, model, '%s, seed %d' % (title, seed))
 				if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
 		if p.halfRate and session.wants(seed, 'half_rate_change'):
 			slow = pull(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]
@@ -229,6 +230,7 @@ with Session(p) as session:
 	session.write()
 	session.picture(
 		'curve.png', pictures.drawCurve, session.results.curves, 'displacement_mm', 'stress_MPa',
-		labels=('mean opening across the mortar layer [mm]', 'tensile stress [N/mm²]'), title=title
+		labels=('mean opening across the mortar layer [mm]', 'tensile stress [N/mm²]'), title=title,
+		references=[pictures.Reference('strength, ' + source, expectedPeak)] if expectedPeak else []
 	)
 scenario.waitIfBatch()

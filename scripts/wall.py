@@ -47,21 +47,17 @@ cap = dict(capStrength=10.5e6, capFirst=3.5e6, capResidual=1.5e6, capPeakClosure
 measured = np.array([(0, 0.2, 0.4, 0.7, 1.0, 1.4, 1.8, 2.2, 2.6, 3.0), (0, 18, 34, 48, 57, 54, 48, 42, 38, 35)]) # [mm], [kN], digitised
 source = 'Raijmakers and Vermeltfoort 1992, as digitised; +- 8; another reading is 50'
 
-p = scenario.parameters(
-	{
-		**scenario.usualParameters(
-			threads=1, tag='', seed=1, seeds=1, alpha=0.4, stroke=4e-3, steps=80000, sigma=0.3e6, vtk=True, frames=10, sheets=True
-		), 'detail': Key('interface', 'mortar joints without thickness, or mortar of Voronoi blocks',
-					rule=('interface', 'mortar')), 'crack': Key(True, 'possible cracks in the middle of the bricks'),
-		'crackStiffness': Key(1e13, 'stiffness of these', 'Pa/m', scenario.positive), 'cap': Key(True, 'joints can be crushed, with detail=interface'),
-		'held': Key(True, 'the upper course is held at its height, or goes on carrying the precompression'),
-		'zone': Key(0.06, 'size of the zones in bricks', 'm',
-				(lambda s: 0 < s <= length, 'must be positive and at most a brick\'s length')), 'size': Key(
-					6e-3, 'size of the mortar\'s blocks, sqrt(area), with detail=mortar', 'm',
-					(lambda s: 0 < s < gap, 'must be positive and below a joint')
-				), **scenario.usualParameters(lloyd=2, merge=0.1)
-	}
-)
+p = scenario.parameters({
+	**scenario.usualParameters(
+		threads=1, tag='', seed=1, seeds=1, alpha=0.4, stroke=4e-3, steps=80000, sigma=0.3e6, vtk=True, frames=10, movie='none', sheets=True
+	), 'detail': Key('interface', 'mortar joints without thickness, or mortar of Voronoi blocks',
+				rule=('interface', 'mortar')), 'crack': Key(True, 'possible cracks in the middle of the bricks'),
+	'crackStiffness': Key(1e13, 'stiffness of these', 'Pa/m', scenario.positive), 'cap': Key(True, 'joints can be crushed, with detail=interface'),
+	'held': Key(True, 'the upper course is held at its height, or goes on carrying the precompression'),
+	'zone': Key(0.06, 'size of the zones in bricks', 'm', (lambda s: 0 < s <= length, 'must be positive and at most a brick\'s length')),
+	'size': Key(6e-3, 'size of the mortar\'s blocks, sqrt(area), with detail=mortar', 'm',
+			(lambda s: 0 < s < gap, 'must be positive and below a joint')), **scenario.usualParameters(lloyd=2, merge=0.1)
+})
 dt, pressSteps = 1e-4, 2000 # [s]; masses are scaled to suit
 width, rise = bricks * (length + gap), courses * (height + gap)
 load = p.sigma * width * thickness
@@ -127,7 +123,7 @@ def nearDiagonal(model):
 def shear(stage, seed):
 	"""The model; the recorder of displacement [m], shear and normal force [N] and cracked contact points; the film; names of joints."""
 	model, joints = build(seed)
-	cracks, film, stop = Cracks(model, joints), Film(model, p.frames), loading.Stop(displacement=p.stroke)
+	cracks, film, stop = Cracks(model, joints), Film(model, p.frames if p.vtk or p.movie != 'none' else 0), loading.Stop(displacement=p.stroke)
 	record = Recorder(
 		displacement=lambda: model.groupTravelled('side'), force=lambda: model.groupForce('side'), normal=lambda: -model.groupForce('press'),
 		broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=1e-2 * load), kinetic=model.kineticEnergy
@@ -171,6 +167,7 @@ with Session(p) as session:
 		if seed == p.seed:
 			session.picture('cracks.png', pictures.drawCracks, model, title='Shear wall J4D', names=joints)
 			if p.sheets: pictures.drawSheets(session, film, model, 'Shear wall J4D')
+			pictures.drawFilm(session, film, model, 'Shear wall J4D')
 			if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
 	session.write()
 	session.picture(

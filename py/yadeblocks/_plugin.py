@@ -74,7 +74,8 @@ def ensure(yade):
 	elif built and os.path.realpath(built) != os.path.realpath(path):
 		print('yadeblocks: YADE has loaded %s already, %s is not used' % (path, built), file=sys.stderr)
 	publish(yade)
-	from . import saving
+	from . import _calls, saving
+	_calls.install(yade.wrapper)
 	saving.install()
 
 

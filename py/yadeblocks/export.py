@@ -73,6 +73,32 @@ def jointMotion(model):
 	return (apart * normal).sum(axis=1), apart[:, 1] * normal[:, 0] - apart[:, 0] * normal[:, 1]
 
 
+def freeContactLines(model):
+	"""Edges that touch without a bond: where they face each other (n, 2, 2) [m], the blocks (n, 2), the force on the first of them (n, 2) [N]."""
+	contacts = model.freeContacts() if hasattr(model, "freeContacts") else {}
+	if not contacts: return np.zeros((0, 2, 2)), np.zeros((0, 2), int), np.zeros((0, 2))
+	a0, a1, b0, b1 = np.moveaxis(np.asarray(model.position)[contacts["nodes"]], 1, 0)
+	along = a1 - a0 - (b1 - b0)
+	along /= np.maximum(np.hypot(*along.T), 1e-300)[:, None]
+	at = lambda point: (point * along).sum(axis=1)
+	low, high = np.maximum(at(a0), at(b1)), np.minimum(at(a1), at(b0))
+	middle = (a0 + a1 + b0 + b1) / 4
+	off = lambda place: middle + (place - at(middle))[:, None] * along
+	return np.stack([off(low), off(np.maximum(low, high))], axis=1), contacts["blocks"], contacts["force"]
+
+
+def zoneStrains(model):
+	"""exx, eyy, exy of every zone, (Z, 3): U - 1 of the deformation gradient F = R U, in the axes of the reference state."""
+	corners = np.asarray(model.zoneNodes)
+	if not len(corners): return np.zeros((0, 3))
+	edges = lambda place: np.stack([place[corners[:, 1]] - place[corners[:, 0]], place[corners[:, 2]] - place[corners[:, 0]]], axis=2)
+	F = edges(np.asarray(model.position)) @ np.linalg.inv(edges(np.asarray(model.reference)))
+	C = np.swapaxes(F, 1, 2) @ F
+	root = np.sqrt(np.linalg.det(C))
+	U = (C + root[:, None, None] * np.eye(2)) / np.sqrt(np.trace(C, axis1=1, axis2=2) + 2 * root)[:, None, None] # of a 2 x 2 matrix
+	return np.column_stack([U[:, 0, 0] - 1, U[:, 1, 1] - 1, U[:, 0, 1]])
+
+
 def outOfPlaneStress(model, stress):
 	"""szz of every zone [Pa]: nu (sxx + syy) in plane strain, 0 in plane stress. stress: (Z, 3) of sxx, syy, sxy."""
 	if model.planeStress: return np.zeros(len(stress))
@@ -91,23 +117,26 @@ class State:
 	untouched: as the model was before anything moved or broke."""
 	def __init__(self, model, time, untouched=False):
 		self.time = float(time)
-		self.grids = {"blocks": _zones(model, untouched), "joints": _joints(model, untouched)}
+		self.grids = {"blocks": _zones(model, untouched), "joints": _joints(model, untouched), "contacts": _contacts(model, untouched)}
 
 
 class BlocksExport:
-	"""Two collections for ParaView in `folder`, begun anew: blocks.pvd (zones; rigid blocks as triangles between their corners) and joints.pvd
-	(a line for every contact point, its half of the segment), each with a compressed .vtu file per step.
+	"""Three collections for ParaView in `folder`, begun anew: blocks.pvd (zones; rigid blocks as triangles between their corners), joints.pvd
+	(a line for every contact point, its half of the segment) and contacts.pvd (a line for every two edges that touch without a bond), each with a
+	compressed .vtu file per step.
 
-	Zones: block, material (number in O.materials' order), stresses sxx, syy, sxy, szz, principal stresses s1, s2 in the plane and vonMises [Pa];
+	Zones: block, material (number in O.materials' order), stresses sxx, syy, sxy, szz, principal stresses s1, s2 in the plane and vonMises [Pa],
+	strains exx, eyy, exy;
 	grid points:
 	displacement [m], velocity [m/s]; joints: firstBlock, secondBlock, normal (out of the first block), area [m2], opening [m], slip [m], sigma
 	[Pa], tau [Pa],
-	status (0 intact, 1 broken in tension, 2 in shear, 3 never bonded, 4 softening) and damage (0 whole to 1, only residual strength is left)."""
+	status (0 intact, 1 broken in tension, 2 in shear, 3 never bonded, 4 softening) and damage (0 whole to 1, only residual strength is left);
+	contacts: firstBlock, secondBlock and force on the first [N]."""
 	def __init__(self, folder):
 		self.folder = Path(folder)
 		self.folder.mkdir(parents=True, exist_ok=True)
 		self.times = []
-		for name in ("blocks", "joints"):
+		for name in ("blocks", "joints", "contacts"):
 			for old in (self.folder / f"{name}.pvd", *self.folder.glob(f"{name}_[0-9]*.vtu")):
 				old.unlink(missing_ok=True)
 
@@ -149,6 +178,9 @@ def _zones(model, untouched):
 	position = model.reference if untouched else model.position
 	displacement, velocity = _spatial(position - model.reference), _spatial(there * model.velocity)
 	cells = {"block": blocks, "material": np.asarray(model.blockMaterial, np.int32)[blocks], **dict(zip(("sxx", "syy", "sxy"), stress.T))}
+	strain = np.zeros((len(blocks), 3))
+	if not untouched: strain[:len(triangles[0])] = zoneStrains(model)
+	cells.update(zip(("exx", "eyy", "exy"), strain.T))
 	szz = np.zeros(len(blocks))
 	szz[:len(model.zoneNodes)] = outOfPlaneStress(model, stress[:len(model.zoneNodes)])
 	cells.update(zip(("s1", "s2"), principalStresses(stress).T), szz=szz, vonMises=vonMises(stress, szz))
@@ -168,6 +200,15 @@ def _joints(model, untouched):
 		cells[name] = np.zeros_like(values) if untouched else values
 	status = np.array(model.pointStatus, np.uint8)
 	cells["status"] = np.where(status == 3, status, 0).astype(np.uint8) if untouched else status # never bonded stays so
+	return lines.reshape(-1, 2), "line", np.arange(2 * len(lines)).reshape(-1, 2), {}, cells
+
+
+def _contacts(model, untouched):
+	"""Arguments of _writeGrid."""
+	lines, blocks, force = freeContactLines(model)
+	if untouched: lines, blocks, force = lines[:0], blocks[:0], force[:0]
+	first, second = np.asarray(blocks, np.int32).T
+	cells = {"firstBlock": first, "secondBlock": second, "force": _spatial(force)}
 	return lines.reshape(-1, 2), "line", np.arange(2 * len(lines)).reshape(-1, 2), {}, cells
 
 

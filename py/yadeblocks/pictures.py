@@ -66,7 +66,8 @@ def drawCracks(path, model, magnification=None, window=None, title="", names=Non
 	solid where the joint broke in tension, dashed where it broke in shear.
 
 	magnification: of the displacements (less those of the whole), by default a round number that makes them visible;
-	window: (x0, y0, x1, y1) in the picture [m], by default the specimen; names: of joints, as in results.Cracks. Returns the path."""
+	window: (x0, y0, x1, y1) in the picture [m], by default all of it, fragments and platens too, unless they have flown far;
+	names: of joints, as in results.Cracks. Returns the path."""
 	reference = np.asarray(model.reference)
 	displacement = model.position - reference
 	displacement = displacement - np.median(displacement, axis=0)
@@ -96,15 +97,33 @@ def drawSheets(session, film, model, title):
 	session.picture("sheet-end.png", drawSheet, model, title=title + ", at the end")
 
 
+def drawFilm(session, film, model, title):
+	"""movie.gif or movie.mp4 of a Session whose key `movie` says so: the cracks in a Film's frames, at its peak and now."""
+	from .picturesfields import drawMovie
+	from .snapshot import Snapshot
+	from yade.wrapper import Omega
+	p = session.parameters
+	if p.movie == "none": return
+	states = [*film.states(), Snapshot(model, Omega().time, like=film.peak)]
+	session.later(drawMovie, session.folder / f"movie.{p.movie}", states, "cracks", title=title)
+
+
 @contextmanager
-def _picture(path, width, height):
-	"""A matplotlib figure of this size [inch], saved at the end to a path or a binary file; off pyplot, which belongs to YADE's own plots."""
+def _figure(width, height):
+	"""A matplotlib figure of this size [inch] in our style; off pyplot, which belongs to YADE's own plots."""
 	import matplotlib
 	from matplotlib.backends.backend_agg import FigureCanvasAgg
 	from matplotlib.figure import Figure
 	with matplotlib.rc_context(_style):
 		figure = Figure(figsize=(width, height))
 		FigureCanvasAgg(figure)
+		yield figure
+
+
+@contextmanager
+def _picture(path, width, height):
+	"""A matplotlib figure of this size [inch], saved at the end to a path or a binary file."""
+	with _figure(width, height) as figure:
 		yield figure
 		save = lambda place: figure.savefig(place, format="png", dpi=300, bbox_inches="tight", pad_inches=0.06)
 		if hasattr(path, "write"): return save(path)
@@ -157,7 +176,7 @@ def _drawCrackLines(axes, model, shown, names=None):
 	size = np.ptp(model.reference, axis=0).max()
 	width = _lineWidth(axes, lines)
 	ends = np.rint(contactLines(model, model.reference) / (1e-6 * size)).astype(np.int64) # ends of neighbours coincide in the reference
-	handles = []
+	handles = _drawSoftened(axes, model, lines, status, width)
 	for pair, count in counts.items():
 		for mode, value in modes.items():
 			style = dict(color=colours[pair], linestyle=_modeStyles[mode], linewidth=width)
@@ -167,6 +186,19 @@ def _drawCrackLines(axes, model, shown, names=None):
 			)
 			handles.append(Line2D([], [], label=f"{pair}, {mode} ({count[mode]})", **style))
 	return handles
+
+
+def _drawSoftened(axes, model, lines, status, width):
+	"""Joints that have begun to soften and are not cracked: paler and thinner the less they are damaged; the legend's handle, if there are any."""
+	from matplotlib.collections import LineCollection
+	from matplotlib.lines import Line2D
+	damage = np.asarray(getattr(model, "pointDamage", np.zeros(len(status))))
+	begun = (damage > 0.05) & (status != modes["tension"]) & (status != modes["shear"])
+	if not begun.any(): return []
+	shade = damage[begun]
+	colours = [(0.8, 0.47, 0.65, 0.25 + 0.75 * value) for value in shade] # of Okabe and Ito, too
+	axes.add_collection(LineCollection(lines[begun], colors=colours, linewidths=width * (0.4 + shade), zorder=1.8), autolim=False)
+	return [Line2D([], [], color=_purple, linewidth=width, label=f"softening ({np.count_nonzero(begun)})")]
 
 
 def _lineWidth(axes, lines):
@@ -223,9 +255,11 @@ def _visible(size, displacement):
 
 
 def _window(reference, shown):
-	"""Corners of a view of the specimen and of nearly all of its deformed shape: fragments may fly far."""
-	low = np.minimum(reference.min(axis=0), np.percentile(shown, 0.5, axis=0))
-	high = np.maximum(reference.max(axis=0), np.percentile(shown, 99.5, axis=0))
+	"""Corners of a view of all of the deformed shape; fragments count that are within the specimen's size of it."""
+	low, high = reference.min(axis=0), reference.max(axis=0)
+	size = (high - low).max()
+	near = ((shown > low - size) & (shown < high + size)).all(axis=1)
+	low, high = np.minimum(low, shown[near].min(axis=0, initial=np.inf)), np.maximum(high, shown[near].max(axis=0, initial=-np.inf))
 	margin = 0.015 * (high - low).max()
 	return low - margin, high + margin
 

@@ -4,13 +4,17 @@
 	drawField(folder / 'stress.png', model, 's1')          # contours of a displacement or a stress, see `fields`
 	drawCrosses(folder / 'crosses.png', model)             # principal stresses
 	drawJoints(folder / 'slip.png', model, 'slip')         # bars on the joints: sigma, tau, opening or slip
+	drawContacts(folder / 'contacts.png', model)           # edges that touch without a bond, and their forces
+	drawReactions(folder / 'reactions.png', model)         # forces of groups and of held rigid blocks
 	drawSheet(folder / 'peak.png', film.peak, title='at the peak')
+	drawMovie(folder / 'film.gif', film.states(), 's1')    # or film.mp4
 
 `model` is a BlockModel or a Snapshot of one. Shapes are deformed, as in pictures.drawCracks."""
 import numpy as np
 
-from . import pictures
-from .export import blockOutlines, contactLines, jointMotion, outOfPlaneStress, principalStresses, vonMises
+from . import files, pictures
+from .export import blockOutlines, contactLines, freeContactLines, jointMotion, outOfPlaneStress, principalStresses, vonMises
+from .snapshot import reactionsOf
 
 #: What contours can show: displacements u, ux, uy of the grid points and stresses of the zones.
 fields = ("u", "ux", "uy", "sxx", "syy", "sxy", "szz", "s1", "s2", "vonMises")
@@ -44,6 +48,52 @@ def drawJoints(path, model, what, magnification=None, window=None, title=""):
 	on the side of the joint's second block. Joints that have become free contacts show no stress."""
 	_known("what", what, onJoints)
 	return _alone(path, model, lambda axes, view: _bars(axes, view, what), magnification, window, title or _names[what])
+
+
+def drawContacts(path, model, magnification=None, window=None, title="free contacts"):
+	"""Edges that touch without a bond, as of the last step: where they face each other, and the force between them as an arrow on each side. Needs
+	BlockLoop(contact=True) or BlockContacts in the run."""
+	return _alone(path, model, _contacts, magnification, window, title)
+
+
+def drawReactions(path, model, magnification=None, window=None, title="reactions"):
+	"""Forces on the blocks of groups and of rigid blocks that are held: an arrow at the middle of each, with its two components."""
+	return _alone(path, model, _reactions, magnification, window, title)
+
+
+def drawMovie(path, states, what="cracks", magnification=None, window=None, title="", rate=5):
+	"""A movie of Snapshots: one of `fields` or `onJoints`, 'cracks', 'crosses', 'contacts' or 'reactions'. path: .gif (Pillow) or .mp4 (needs Debian's
+	ffmpeg); rate: frames a second. All frames have one window, one magnification and one range of colours. Returns the path."""
+	from pathlib import Path
+
+	import matplotlib.animation
+	kinds = {"cracks": _cracks, "crosses": _cross, "contacts": _contacts, "reactions": _reactions}
+	_known("what", what, (*fields, *onJoints, *kinds))
+	writers = {".gif": matplotlib.animation.PillowWriter, ".mp4": matplotlib.animation.FFMpegWriter}
+	path = Path(path)
+	_known("path's ending", path.suffix, tuple(writers))
+	if not states: raise ValueError("drawMovie: there are no states")
+	if not writers[path.suffix].isAvailable():
+		raise RuntimeError(f"a movie {path.suffix} needs {'ffmpeg: scripts/install.sh ffmpeg' if path.suffix == '.mp4' else 'Pillow'}")
+	last = _View(states[-1], magnification, window)
+	views = [_View(state, last.magnification, (*last.low, *last.high)) for state in states]
+	if what in fields: most = max((_most(_values(view, what)[0]) for view in views), default=0)
+	elif what in onJoints: most = max((_most(_onJoints(view.model, what)) for view in views), default=0)
+	draw = {**kinds, **dict.fromkeys(fields, lambda a, v: _field(a, v, what, most)), **dict.fromkeys(onJoints, lambda a, v: _bars(a, v, what, most))}[what]
+	size = last.high - last.low
+	width, height = size * min(5 / size[0], 5 / size[1])
+	with files.replacing(path) as part:
+		with pictures._figure(width + 0.4, height + 1.2) as figure:
+			film = writers[path.suffix](fps=rate)
+			with film.saving(figure, str(part) + path.suffix, dpi=120):
+				for view in views:
+					figure.clear()
+					axes = figure.add_axes((0.2 / (width + 0.4), 0.8 / (height + 1.2), width / (width + 0.4), height / (height + 1.2)))
+					_frame(axes, view, f"{title or _names.get(what, what)}, {view.model.time:.4g} s")
+					draw(axes, view)
+					film.grab_frame()
+			Path(str(part) + path.suffix).replace(part)
+	return path
 
 
 def drawSheet(path, model, magnification=None, window=None, title=""):
@@ -130,19 +180,27 @@ def _values(view, what):
 	return stress[:, ("sxx", "syy", "sxy").index(what)], "Pa"
 
 
-def _scaled(values, unit):
-	"""Values in a unit in which they are neither tiny nor huge, and its name."""
-	largest = np.abs(values).max() if len(values) else 0
+def _scale(most, unit):
+	"""A size in a unit in which it is neither tiny nor huge, the factor of that unit, and its name."""
 	prefixes = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
-	factor, prefix = next(((factor, prefix) for factor, prefix in prefixes if largest >= factor), (1, ""))
-	return values / factor, prefix + unit
+	factor, prefix = next(((factor, prefix) for factor, prefix in prefixes if most >= factor), (1, ""))
+	return most / factor, factor, prefix + unit
 
 
-def _field(axes, view, what):
-	"""Colours: to both sides of zero for what has two signs; the largest hundredth shares the last colour."""
+def _most(values):
+	"""The size that only a hundredth of the values exceeds; that of the largest if most are nothing."""
+	values = np.abs(values)
+	return (np.percentile(values, 99) or values.max()) if len(values) else 0
+
+
+def _field(axes, view, what, most=None):
+	"""Colours: to both sides of zero for what has two signs; the largest hundredth shares the last colour. most: the end of the range, by default of this
+	state."""
 	from matplotlib.collections import PolyCollection
 	model = view.model
-	values, unit = _scaled(*_values(view, what))
+	values, unit = _values(view, what)
+	most, factor, unit = _scale(_most(values) if most is None else most, unit)
+	values = values / factor
 	_outlines(axes, view, "#EDEDED")
 	if what in ("u", "ux", "uy"):
 		rigid = np.flatnonzero(np.diff(model.firstZone) == 0).tolist()
@@ -155,7 +213,7 @@ def _field(axes, view, what):
 		)
 		colours.set_edgecolor("face")
 		axes.add_collection(colours, autolim=False)
-	most = np.percentile(np.abs(values), 99) or 1
+	most = most or 1
 	colours.set_clim(0 if what in ("u", "vonMises") else -most, most)
 	_outlines(axes, view)
 	_bar(axes, colours, unit)
@@ -178,7 +236,9 @@ def _cross(axes, view):
 	middles = view.shown[model.zoneNodes].mean(axis=1)
 	chosen = _spread(middles, view, _crosses)
 	stress, middles = stress[chosen], middles[chosen]
-	principal, unit = _scaled(principalStresses(stress), "Pa")
+	principal = principalStresses(stress)
+	_, factor, unit = _scale(np.abs(principal).max(), "Pa")
+	principal = principal / factor
 	angle = np.arctan2(2 * stress[:, 2], stress[:, 0] - stress[:, 1]) / 2
 	spacing = np.sqrt(np.prod(view.high - view.low) / max(len(chosen), 1))
 	most = np.percentile(np.abs(principal).max(axis=1), 99) or 1
@@ -203,21 +263,26 @@ def _spread(places, view, most):
 	return np.unique(index[:, 1] * columns + index[:, 0], return_index=True)[1]
 
 
-def _bars(axes, view, what):
+def _onJoints(model, what):
+	"""A value for each contact point; openings and slips of free contacts, too."""
+	values = np.array(getattr(model, "point" + what.capitalize()))
+	if what not in ("opening", "slip") or not len(values): return values
+	return np.where(np.repeat(np.asarray(model.segmentArea) > 0, 2), values, jointMotion(model)[onJoints[2:].index(what)])
+
+
+def _bars(axes, view, what, most=None):
 	from matplotlib.collections import PolyCollection
 	model = view.model
 	_outlines(axes, view, "#F7F7F7")
-	values = np.array(getattr(model, "point" + what.capitalize()))
+	values = _onJoints(model, what)
 	if not len(values): return
 	there = np.repeat(np.asarray(model.segmentArea) > 0, 2)
-	if what in ("opening", "slip"): # free contacts, too
-		values = np.where(there, values, jointMotion(model)[onJoints[2:].index(what)])
-		there[:] = True
+	if what in ("opening", "slip"): there[:] = True
 	lines, values = contactLines(model, view.shown)[there], values[there]
 	normals = np.repeat(model.normal, 2, axis=0)[there]
-	values, unit = _scaled(values, "Pa" if what in ("sigma", "tau") else "m")
-	if not len(values) or not np.abs(values).max() > 0: return
-	most = np.percentile(np.abs(values), 99) or np.abs(values).max()
+	most, factor, unit = _scale(_most(values) if most is None else most, "Pa" if what in ("sigma", "tau") else "m")
+	values = values / factor
+	if not most > 0: return
 	along = lines[:, 1] - lines[:, 0]
 	across = np.column_stack([-along[:, 1], along[:, 0]])
 	across /= np.maximum(np.hypot(*across.T), 1e-300)[:, None]
@@ -229,3 +294,49 @@ def _bars(axes, view, what):
 	axes.add_collection(PolyCollection(corners, facecolors=colours, edgecolors=colours, linewidths=0.1, alpha=0.8, zorder=3), autolim=False)
 	sense = {"sigma": "red tension, blue compression", "opening": "red open, blue closed"}.get(what, "red and blue: the two senses")
 	axes.text(0.5, -0.04, f"{sense}; the highest {most:.3g} {unit}", transform=axes.transAxes, ha="center", va="center", fontsize=6)
+
+
+def _contacts(axes, view):
+	from matplotlib.collections import LineCollection
+	pictures._drawBlocks(axes, view.model, view.shown)
+	lines, blocks, force = freeContactLines(view.model)
+	if not len(lines): return _note(axes, "no edges touch without a bond")
+	moved = view.magnification * (lines.mean(axis=1) - _referenceOf(view, lines))
+	shown = _referenceOf(view, lines)[:, None] + moved[:, None] + (lines - lines.mean(axis=1, keepdims=True))
+	axes.add_collection(LineCollection(shown, colors="black", linewidths=1.2, zorder=2), autolim=False)
+	size = np.hypot(*force.T)
+	most, factor, unit = _scale(size.max(), "N")
+	if not most > 0: return
+	reach = 0.06 * (view.high - view.low).max() / size.max()
+	middle = shown.mean(axis=1)
+	for sign in (-1, 1):
+		axes.quiver(*middle.T, *(sign * reach * force).T, color=_blue, angles="xy", scale_units="xy", scale=1, width=0.003, pivot="tip", zorder=3)
+	_note(axes, f"arrows: forces between edges that touch without a bond; the longest {most:.3g} {unit}")
+
+
+def _referenceOf(view, lines):
+	"""Where the middles of free contacts were in the reference state."""
+	nodes = view.model.freeContacts()["nodes"]
+	moved = np.asarray(view.model.position) - np.asarray(view.model.reference)
+	return lines.mean(axis=1) - moved[nodes].mean(axis=1)
+
+
+def _reactions(axes, view):
+	pictures._drawBlocks(axes, view.model, view.shown)
+	found = [some for some in reactionsOf(view.model) if np.hypot(*some[2]) > 0]
+	if not found: return _note(axes, "no reactions")
+	largest = max(np.hypot(*force) for _, _, force in found)
+	most, factor, unit = _scale(largest, "N")
+	reach = 0.2 * (view.high - view.low).max()
+	for name, place, force in found:
+		tip = np.clip(place, view.low, view.high)
+		axes.annotate(
+			"", tip, tip - reach * force / largest, arrowprops=dict(arrowstyle="-|>", color=_red, linewidth=1.6, shrinkA=0, shrinkB=0), zorder=4
+		)
+		text = f"{name}: {force[0] / factor:.3g}, {force[1] / factor:.3g} {unit}"
+		axes.text(*tip, text, fontsize=7, ha="center", va="bottom", zorder=5, bbox=dict(facecolor="white", alpha=0.7, linewidth=0, pad=1))
+	_note(axes, "forces on the blocks along x and y")
+
+
+def _note(axes, text):
+	axes.text(0.5, -0.04, text, transform=axes.transAxes, ha="center", va="center", fontsize=6)

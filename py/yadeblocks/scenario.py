@@ -67,6 +67,7 @@ _usual = {
 	"halfRate": Key(False, "repeat each run at half the loading rate and report the change"),
 	"vtk": Key(True, "write files for ParaView"),
 	"frames": Key(10, "frames of the loading in the files for ParaView, besides those at the peak and at the end", rule=notNegative),
+	"movie": Key("none", "a movie of the cracks, of as many frames as are said; mp4 needs Debian's ffmpeg", rule=("none", "gif", "mp4")),
 	"sheets": Key(True, "draw sheets of displacements, stresses and joints at the peak and at the end"),
 	"pressSteps": Key(2000, "time steps in which the precompression comes on", rule=atLeastOne),
 	"approach": Key(0.2, "speed up to the peak by that after it", rule=(lambda f: 0 < f <= 1, "must lie in (0, 1]")),
@@ -85,7 +86,7 @@ def commonParameters(**defaults):
 
 def usualParameters(**defaults):
 	"""Keys that more than one scenario has, with these defaults: `units cells edgeSegments solver brickZone merge jump servo
-	halfRate vtk frames sheets pressSteps approach sigma stroke` and all the common ones.
+	halfRate vtk frames movie sheets pressSteps approach sigma stroke` and all the common ones.
 
 	Raises TypeError for a name that is none of them."""
 	return _chosen({**_common, **_usual}, "that several scenarios have", defaults)

@@ -28,6 +28,8 @@ class Snapshot:
 			setattr(self, name, np.array(getattr(model, name)))
 		self.time = float(time)
 		self._stress = np.array(model.zoneStress())
+		self._contacts = {name: np.array(column) for name, column in model.freeContacts().items()} if hasattr(model, "freeContacts") else {}
+		self.reactions = reactionsOf(model)
 		self.poisson = like.poisson if like else poissonOf(model)
 		self._corners = like._corners if like else {
 			block: np.array(model.cornerTriangles(block)) for block in np.flatnonzero(np.diff(model.firstZone) == 0).tolist()
@@ -36,6 +38,10 @@ class Snapshot:
 	def zoneStress(self):
 		"""sxx, syy, sxy of every zone, tension positive, (zones, 3) [Pa]."""
 		return self._stress
+
+	def freeContacts(self):
+		"""As BlockModel.freeContacts."""
+		return self._contacts
 
 	def cornerTriangles(self, block):
 		"""As BlockModel.cornerTriangles, of rigid blocks."""
@@ -48,6 +54,29 @@ def poissonOf(model):
 	from yade.wrapper import Omega
 	known = {material.label: material for material in Omega().materials}
 	return np.array([known[label].poisson for label in model.materialLabels])
+
+
+def reactionsOf(model):
+	"""What holds, drives and presses a model: a list of (name, place [m], force on the blocks [N]) of its groups and of held rigid blocks. A Snapshot's own."""
+	if not hasattr(model, "groupNodes"): return getattr(model, "reactions", [])
+	found = []
+	for name in model.groups:
+		force = [model.groupForce(name, axis=axis) if axis in model.groupAxes(name) else 0.0 for axis in "xy"]
+		found.append((name, np.asarray(model.position)[model.groupNodes(name)].mean(axis=0), np.array(force)))
+	return found + _heldBlocks(model)
+
+
+def _heldBlocks(model):
+	rigid = np.flatnonzero(np.diff(model.firstZone) == 0).tolist()
+	if not rigid or model.firstBody < 0: return []
+	from yade.wrapper import Omega
+	O, found = Omega(), []
+	for block in rigid:
+		body = O.bodies[model.bodyOf(block)]
+		if not {"x", "y"} & set(body.state.blockedDOFs): continue
+		place = np.asarray(model.position)[model.firstNode[block]:model.firstNode[block + 1]].mean(axis=0)
+		found.append((f"block {block}", place, -np.array(O.forces.f(body.id))[:2]))
+	return found
 
 
 class Film:
@@ -63,6 +92,16 @@ class Film:
 		now = Snapshot(self.model, time, like=self.peak)
 		if higher: self.peak, self.highest = now, stress
 		if due: self.frames.append(now)
+
+	def engine(self, iterPeriod):
+		"""An engine for O.engines that takes a frame every so many steps."""
+		from .recording import runner
+
+		def take():
+			from yade.wrapper import Omega
+			self.frames.append(Snapshot(self.model, Omega().time, like=self.frames[-1] if self.frames else self.peak))
+
+		return runner("film", take, iterPeriod)
 
 	def states(self):
 		"""All frames and the peak, each once, in order of time."""

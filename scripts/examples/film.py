@@ -25,5 +25,7 @@ picturesfields.drawField('s1.png', film.peak, 's1') # contours: displacements an
 picturesfields.drawJoints('opening.png', model, 'opening') # bars: sigma, tau, opening, slip
 picturesfields.drawCrosses('crosses.png', film.peak) # principal stresses
 picturesfields.drawSheet('sheet.png', model, title='at the end')
+picturesfields.drawReactions('reactions.png', film.peak)
+picturesfields.drawMovie('film.gif', film.states(), 's1')
 pictures.drawCracks('cracks.png', model)
 writeFilm('paraview', film, Snapshot(model, O.time)) # paraview/blocks.pvd and joints.pvd

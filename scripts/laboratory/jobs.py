@@ -27,7 +27,7 @@ from .engine import Engine, EngineError
 
 
 class Job(NamedTuple):
-	"""One run: `yade scripts/SCRIPT.py key=value ... seed=N`."""
+	"""One run: `yade scripts/SCRIPT.py key=value ... seed=N`; seed None: of a scenario that has none."""
 	script: str
 	settings: dict
 	seed: int
@@ -136,7 +136,7 @@ class Jobs:
 			"PYTHONPATH": os.pathsep.join([str(self.house / "py"), *filter(None, [os.environ.get("PYTHONPATH")])])
 		}
 		return {
-			"key": key, "command": ["yade", "-n", "-x", "-j1", str(script), *words, f"seed={job.seed}",
+			"key": key, "command": ["yade", "-n", "-x", "-j1", str(script), *words, *self._seed(job),
 						tag], "environment": {**(os.environ if self.engine.local else {}), **environment},
 			"folder": os.path.join("out", f"{script.stem}-{key}"), "limit": self.limit, "files": self._files(job.script),
 			"digest": self.code(job.script)[1], "scratch": str(self.work) if self.engine.local else None
@@ -144,6 +144,9 @@ class Jobs:
 
 	def _words(self, job):
 		return [f"{name}={study.plain(value)}" for name, value in job.settings.items()]
+
+	def _seed(self, job):
+		return [] if job.seed is None else [f"seed={job.seed}"]
 
 	def _keep(self, job, outcome, line):
 		"""Writes down what a run gave, whole or not at all."""
@@ -156,7 +159,7 @@ class Jobs:
 		record = {
 			"parallel": line.parallel, "job": {"script": job.script, "settings": job.settings, "seed": job.seed},
 			"command": " ".join(["scripts/run.sh", job.script, *self._words(job),
-						f"seed={job.seed}"]), "wall_s": outcome["wall_s"], "host": outcome["host"]
+						*self._seed(job)]), "wall_s": outcome["wall_s"], "host": outcome["host"]
 		}
 		if "failed" in outcome:
 			record.update({name: outcome[name] for name in ("failed", "again", "limit") if outcome.get(name)})

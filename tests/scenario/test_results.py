@@ -349,7 +349,9 @@ def test_exportBeginsAnew(tmp_path):
 		blocks = export.BlocksExport(tmp_path)
 		for step in range(steps):
 			blocks.write(column(), step)
-	assert sorted(path.name for path in tmp_path.iterdir()) == ["blocks.pvd", "blocks_0000.vtu", "joints.pvd", "joints_0000.vtu"]
+	assert sorted(path.name for path in tmp_path.iterdir()) == [
+		f"{name}{end}" for name in ("blocks", "contacts", "joints") for end in (".pvd", "_0000.vtu")
+	]
 
 
 # ---- pictures

@@ -91,6 +91,16 @@ def test_wall(tmp_path):
 	assert found["cracks_bed_tension"][0] > 0 and "cracks_head_tension" in found and "cracks_unit_tension" not in found
 
 
+@needsYade
+def test_diagonal(tmp_path):
+	"""Stronger than the joints' tension in the centre, weaker than if a bed joint slid all at once; the tension in the centre is that of a body without joints but
+	for what these give way, a fifth; the crack runs through head joints in tension and bed joints in shear."""
+	found = measured(tmp_path, "diagonal", "steps=15000")
+	assert 0.25 < found["diagonal_shear_strength"][0] and 0.4 < found["share_of_the_bound"][0] < 0.7
+	assert found["centre_tension_by_load"][0] == pytest.approx(0.5, rel=0.2)
+	assert found["cracks_head_tension"][0] > 0 and found["cracks_bed_shear"][0] > 0 and found["cracks_bed_tension"][0] == 0
+
+
 def test_bisection():
 	low, high = bisect(lambda x: x < 0.3, 0, 1, 1e-3)
 	assert low < 0.3 <= high and high - low <= 1e-3 * high
@@ -108,3 +118,24 @@ def test_segments(tmp_path):
 	assert found["error_at_junctions_1"] > 0.08 and found["error_at_junctions_2"] > 0.08
 	assert found["error_inside_edges_2"] < found["error_at_junctions_2"] / 2
 	assert found["largest_1"] > 1.15 and found["smallest_1"] < 0.2 # at 60 degrees to the pull 0.25
+
+
+def test_structuresAtThreeCosts(tmp_path, monkeypatch):
+	"""What is run exists with its keys; errors and failures are in the table, the curve is drawn."""
+	monkeypatch.syspath_prepend(str(house / "scripts"))
+	from laboratory import structures
+	jobs = structures.jobsOf()
+	assert len(jobs) == 3 * len(structures.costs) and all(job.seed is None for job in jobs)
+	run = subprocess.run(["/usr/bin/python3", "-m", "yadeblocks.help", *(house / f"scripts/{name}.py" for name in structures.costs)], capture_output=True,
+				text=True, env={**os.environ, "PYTHONPATH": str(house / "py")})
+	for name, text in zip(structures.costs, run.stdout.split("key=value ...]\n  threads=")[1:]):
+		assert all(f"\n  {key}=" in text for job in jobs if job.script == name for key in job.settings), name
+
+	def record(job):
+		if job.script == "arch": return {"failed": "exit code 1"}
+		names = structures.costs[job.script][0]
+		return {"reported": dict.fromkeys(names, 1.1), "expected": dict.fromkeys(names, 1.0), "cost": {"cpu_s": 2.0 + len(job.settings)}}
+
+	text = structures.report(record, tmp_path)
+	assert text.count("+10.00 %") == 3 * (sum(len(quantities) for quantities, _ in structures.costs.values()) - 1) and text.count("exit code 1") == 3
+	assert (tmp_path / "structures.png").stat().st_size > 5000 and len((tmp_path / "structures.csv").read_text().splitlines()) > 20

@@ -44,6 +44,95 @@ def test_everyPicture(column, tmp_path):
 		picturesfields.drawJoints(tmp_path / 'b.png', snap, 's1')
 
 
+@pytest.fixture(scope='module')
+def pressed():
+	"""A brick that lies loose on another and is pressed by 1 kN; a rigid block holds the lower one."""
+	materials()
+	model = BlockModel(thickness=0.05)
+	plate = model.addRigid(rectangle(-0.01, -0.02, 0.05, 0), 'mortar')
+	model.addRegion(rectangle(0, 0, 0.04, 0.02), 'unit', zoneSize=0.02)
+	model.addRegion(rectangle(0, 0.021, 0.04, 0.041), 'unit', zoneSize=0.02) # a gap of a millimetre
+	model.bond(glued())
+	top = nodesWhere(model, lambda x, y: y > 0.041 - 1e-9)
+	model.push('press', top, 'y', force=-1e3)
+	model.drive('side', top, 'x')
+	model.insert()
+	O.bodies[model.bodyOf(plate)].state.blockedDOFs = 'xyzXYZ'
+	O.dt, O.engines = 1e-4, [ForceResetter(), BlockLoop(contact=True), NewtonIntegrator(damping=0.3), BlockMotion(alpha=0.5)]
+	O.run(3000, True)
+	return model
+
+
+def test_freeContactsAndReactions(pressed, tmp_path):
+	"""Equilibrium: what presses goes through the contact into the plate; contacts lie where the bricks meet, over their whole length."""
+	contacts = pressed.freeContacts()
+	upper = contacts['force'] * np.where(contacts['blocks'][:, :1] == 2, 1, -1) # on the upper brick
+	assert upper.sum(axis=0) == pytest.approx((-pressed.groupForce('side'), 1e3), abs=1) and set(contacts['blocks'].ravel()) == {1, 2}
+	lines, blocks, force = export.freeContactLines(pressed)
+	assert np.abs(lines[:, :, 1] - 0.02).max() < 1e-5 and np.hypot(*(lines[:, 1] - lines[:, 0]).T).sum() == pytest.approx(0.04, rel=1e-3)
+	reactions = {name: (place, force) for name, place, force in snapshot.reactionsOf(pressed)}
+	assert reactions['press'][1] == pytest.approx((0, -1e3)) and reactions['block 0'][1] == pytest.approx((-pressed.groupForce('side'), 1e3), abs=1)
+	assert reactions['press'][0] == pytest.approx((0.02, 0.04), abs=1e-5)
+	assert pressed.groupMoment('press', (0, 0)) == pytest.approx(-1e3 * 0.02, rel=0.05) # as even as the stress is
+	assert pressed.groupMoment('press', (1, 5)) - pressed.groupMoment('press', (0, 0)) == pytest.approx(1e3, rel=1e-9) # M' = M - r x F
+	assert list(pressed.groupNodes('side')) == list(pressed.groupNodes('press')) and pressed.groupAxes('press') == 'y' and pressed.groupAxes('side') == 'x'
+	taken = snapshot.Snapshot(pressed, 0)
+	assert np.array_equal(export.freeContactLines(taken)[0], lines) and [name for name, _, _ in taken.reactions] == ['press', 'side', 'block 0']
+	for number, draw in enumerate((picturesfields.drawContacts, picturesfields.drawReactions)):
+		picture = matplotlib.image.imread(draw(tmp_path / f'{number}.png', taken))
+		assert min(picture.shape[:2]) > 300 and len(np.unique(picture[::7, ::7, :3].reshape(-1, 3), axis=0)) > 5
+	export.BlocksExport(tmp_path).write(pressed, 0)
+	assert f'NumberOfCells="{len(lines)}"'.encode() in (tmp_path / 'contacts_0000.vtu').read_bytes()
+
+
+def test_strainsOfTurnedZones(column):
+	"""A stretch of 1e-3 along x, then a turn by 40 degrees: U - 1 knows nothing of the turn."""
+	snap = snapshot.Snapshot(column, 0)
+	turn = np.array([(np.cos(0.7), -np.sin(0.7)), (np.sin(0.7), np.cos(0.7))])
+	snap.position = (np.asarray(snap.reference) * (1 + 1e-3, 1) + (3, 4)) @ turn.T
+	assert export.zoneStrains(snap) == pytest.approx(np.tile((1e-3, 0, 0), (len(snap.zoneNodes), 1)), abs=1e-12)
+
+
+def test_movies(column, tmp_path):
+	"""As many frames as states, each another picture, all of one size; what a system cannot write is said."""
+	from PIL import Image
+	states = []
+	for number in range(4):
+		column.displacement[column.firstNode[1]:] = (0, number * 1e-6)
+		states.append(snapshot.Snapshot(column, 0.1 * number, like=states[-1] if states else None))
+	column.displacement[column.firstNode[1]:] = (1e-6, 2e-6)
+	for what in ('uy', 'opening', 'cracks'):
+		movie = Image.open(picturesfields.drawMovie(tmp_path / f'{what}.gif', states, what))
+		assert movie.n_frames == 4 and min(movie.size) > 100, what
+		frames = []
+		for number in range(4):
+			movie.seek(number)
+			frames.append(np.asarray(movie.convert('RGB')).tobytes())
+		assert len(set(frames)) == 4, what # the title has the time
+	for path, words in (('a.avi', "path's ending must be one of .gif, .mp4, got '.avi'"), ('a.gif', "what must be one of u, ")):
+		with pytest.raises(ValueError, match=words):
+			picturesfields.drawMovie(tmp_path / path, states, 'uy' if path == 'a.avi' else 'nothing')
+	with pytest.raises(ValueError, match='there are no states'):
+		picturesfields.drawMovie(tmp_path / 'b.gif', [])
+
+
+def test_filmTakesFramesByItself(column):
+	film = snapshot.Film(column)
+	O.engines = O.engines + [film.engine(2)]
+	O.run(6, True)
+	O.engines = O.engines[:-1]
+	assert len(film.frames) == 3 and film.frames[0].time < film.frames[2].time
+
+
+def test_nothingIsCutOff():
+	"""Fragments and platens are in the picture, but not what has flown further than the specimen is large."""
+	from yadeblocks import pictures
+	reference = np.array([(0, 0), (1, 0), (1, 2), (0, 2.)])
+	low, high = pictures._window(reference, reference + [(0, 0), (1.5, 0), (0, 0), (0, 0)])
+	assert high[0] == pytest.approx(2.5, abs=0.05) and low == pytest.approx((0, 0), abs=0.05)
+	assert pictures._window(reference, reference + [(0, 0), (50, 0), (0, 0), (0, 0)])[1][0] == pytest.approx(1, abs=0.05)
+
+
 def test_rigidBlocksAlone(tmp_path):
 	"""No zones, no joints: what cannot be shown is left out."""
 	materials()

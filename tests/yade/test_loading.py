@@ -154,3 +154,38 @@ def test_stop(condition, reason, step):
 def test_stopRefuses(condition, text):
 	with pytest.raises(ValueError, match=text):
 		loading.Stop(**condition)
+
+
+@pytest.mark.parametrize('kind', ['function', 'table', 'accelerogram'])
+def test_motionInTime(kind):
+	"""A bar goes where the integral of the velocity is: the middle of each step is second order, dt^2 w^2 / 24 of the way, and the table is fine enough."""
+	w, dt, steps = 20., 1e-3, 250
+	materials()
+	model = BlockModel(thickness=0.05)
+	model.addRegion(rectangle(0, 0, 0.1, 0.1), 'unit', zoneSize=0.1)
+	model.bond([])
+	model.drive('base', nodesWhere(model, lambda x, y: y < 1e-9), 'x')
+	model.insert()
+	O.dt, O.engines = dt, [BlockLoop(), BlockMotion(alpha=0.3)]
+	O.run(7, True) # times count from when it is made
+	times = np.linspace(0, 1, 5001)
+	values = {
+		'function': lambda t: 0.1 * np.sin(w * t), 'table': (times, 0.1 * np.sin(w * times)),
+		'accelerogram': loading.accelerogram(times, 0.1 * w * np.cos(w * times))
+	}[kind]
+	O.engines = [loading.Motion(model, 'base', values).engine()] + O.engines
+	O.run(steps, True)
+	assert model.groupTravelled('base') == pytest.approx(0.1 / w * (1 - np.cos(w * steps * dt)), rel=dt**2 * w**2 / 24 * 2)
+
+
+def test_motionThatCannotBe():
+	model = couplet()
+	for values, words in ((([0, 1], [0]), 'a value for each'), (([0, 0], [0, 1]), 'times must grow'), (([0, 1], [0, np.nan]), 'finite')):
+		with pytest.raises(ValueError, match=words):
+			loading.Motion(model, 'top', values)
+	motion = loading.Motion(model, 'top', ([0, 1e-3], [0, 1e-5]))
+	O.engines = [motion.engine()] + O.engines
+	with pytest.raises(RuntimeError): # YADE's own, of the command; it shows what was wrong
+		O.run(10, True)
+	with pytest.raises(ValueError, match="the table of 'top' goes from 0 to 0.001 s, and the time is 0.0[0-9]+ s"):
+		motion()

@@ -54,6 +54,28 @@ namespace {
 		return out;
 	}
 
+	/// What touches without a bond, as of the last step.
+	py::dict freeContacts(const py::object& self)
+	{
+		const BlockAssembly& a = arrays(self);
+		std::vector<int>     both, nodes;
+		std::vector<Real>    force;
+		for (int i : a.contacts.order)
+			for (int k = a.contacts.range[i].first; k < a.contacts.range[i].last; ++k) {
+				const blocks::PairForce& on    = a.contacts.forces[k];
+				const Vec2               first = on.force[0] + on.force[1];
+				both.insert(both.end(), a.state.contacts[i].block.begin(), a.state.contacts[i].block.end());
+				nodes.insert(nodes.end(), on.node.begin(), on.node.end());
+				force.insert(force.end(), { first[0], first[1] });
+			}
+		const auto table = [](auto& numbers, int columns) { return numpyOf(numbers, false).attr("copy")().attr("reshape")(-1, columns); };
+		py::dict   out;
+		out["blocks"] = table(both, 2);
+		out["nodes"]  = table(nodes, 4);
+		out["force"]  = table(force, 2);
+		return out;
+	}
+
 	py::object zoneStress(const py::object& self)
 	{
 		BlockAssembly& a = arrays(self);
@@ -205,6 +227,11 @@ void defineArrays(PythonModel& c)
 	             "Sum of unbalanced |force| over free degrees of freedom (of rigid blocks: of their bodies, without moments) by twice the sum of contact "
 	             "|forces|, the latter at least floor [N]. YADE's utils.unbalancedForce() knows nothing of grid points.")
 		.def("kineticEnergy", &kineticEnergy, "Kinetic energy, with the scaled masses if masses are scaled [J].")
+		.def("freeContacts",
+	             &freeContacts,
+	             "Edges that touch without a bond, as of the last step, as a dictionary of copies, one entry a pair of edges: blocks, the two (n, 2); nodes, the "
+	             "grid points a0, a1 of the first block's edge and b0, b1 of the second's (n, 4); force, on the first block (n, 2) [N]. Empty without "
+	             "general contact.")
 		.def("zoneStress",
 	             py::make_function(&zoneStress),
 	             "Cauchy stress of every zone: sxx, syy, sxy, tension positive; shape (zones, 3) [Pa]. A copy.")

@@ -18,8 +18,17 @@ namespace {
 
 	blocks::Ring ring(const py::object& points)
 	{
-		const py::object list = py::import("numpy").attr("asarray")(points, "float64").attr("reshape")(-1, 2).attr("tolist")();
-		blocks::Ring     out;
+		py::object list;
+		try {
+			const py::object array = py::import("numpy").attr("asarray")(points, "float64");
+			if (py::extract<long>(array.attr("size"))() == 0) return {};
+			if (py::extract<int>(array.attr("ndim"))() == 2 && py::extract<int>(array.attr("shape")[1])() == 2) list = array.attr("tolist")();
+		} catch (const py::error_already_set&) {
+			PyErr_Clear();
+		}
+		if (list.is_none())
+			throw std::invalid_argument("a polygon must be a list of points (x, y), got " + string(py::extract<string>(py::str(points))));
+		blocks::Ring out;
 		for (long i = 0; i < py::len(list); ++i)
 			out.push_back({ py::extract<Real>(list[i][0]), py::extract<Real>(list[i][1]) });
 		return out;

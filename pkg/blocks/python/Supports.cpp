@@ -1,7 +1,9 @@
 // yade-blocks, GPL-2.0-or-later
+#include <algorithm>
 #include <blocks/kernel/step/Loads.hpp>
 #include <blocks/python/Follow.hpp>
 #include <blocks/python/ModelPython.hpp>
+#include <blocks/python/Numpy.hpp>
 #include <core/Omega.hpp>
 #include <limits>
 
@@ -114,6 +116,40 @@ namespace {
 		if (!on[k]) throw std::invalid_argument("motion group \"" + name + "\" does not act along '" + axis + "'");
 		return resistance[k] + (g.force - resistance.sum()) * inertia[k] / inertia.sum();
 	}
+	/// Of the forces on all grid points of the group, about a point.
+	Real moment(BlockModel& model, const string& name, const Vector2r& about)
+	{
+		const MotionGroup&           g          = model.group(name);
+		const blocks::BlockAssembly& a          = model.assembly;
+		Real                         resistance = 0, inertia = 0;
+		for (int dof : g.dofs) {
+			resistance -= a.forces.nodal[dof / 2][dof % 2];
+			inertia += a.state.inertia[dof / 2];
+		}
+		Real sum = 0;
+		for (int dof : g.dofs) { // all of them accelerate alike
+			const Vector2r arm   = a.position(dof / 2) - about;
+			const Real     force = (g.force - resistance) * a.state.inertia[dof / 2] / inertia - a.forces.nodal[dof / 2][dof % 2];
+			sum += dof % 2 ? arm[0] * force : -arm[1] * force;
+		}
+		return sum;
+	}
+	py::object nodesOf(BlockModel& model, const string& name)
+	{
+		vector<int> nodes;
+		for (int dof : model.group(name).dofs)
+			nodes.push_back(dof / 2);
+		std::sort(nodes.begin(), nodes.end());
+		nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+		return numpyOf(nodes, false).attr("copy")();
+	}
+	string axesOf(BlockModel& model, const string& name)
+	{
+		bool on[2] = { false, false };
+		for (int dof : model.group(name).dofs)
+			on[dof % 2] = true;
+		return string(on[0] ? "x" : "") + (on[1] ? "y" : "");
+	}
 	Real     velocity(BlockModel& model, const string& name) { return model.group(name).velocity; }
 	Real     travelled(BlockModel& model, const string& name) { return model.group(name).travelled; }
 	Real     work(BlockModel& model, const string& name) { return model.group(name).work; }
@@ -162,6 +198,12 @@ void defineSupports(PythonModel& c)
 	             (arg("name"), arg("axis") = ""),
 	             "Force that a group puts on the blocks along an axis, in the last step [N]. A group along 'xy' has two: axis='x' or 'y' is needed there. "
 	             "Errors: ValueError for a group that is not there, an axis it does not act along, or none where it has two.")
+		.def("groupMoment",
+	             &moment,
+	             (arg("name"), arg("about")),
+	             "Moment about a point (x, y) [m] of the forces that a group puts on the blocks, counter-clockwise, in the last step [N m].")
+		.def("groupNodes", &nodesOf, (arg("name")), "Grid points of a group, in ascending order. A copy.")
+		.def("groupAxes", &axesOf, (arg("name")), "Axes along which a group acts: 'x', 'y' or 'xy'.")
 		.def("groupVelocity", &velocity, (arg("name")), "Present velocity of a group [m/s].")
 		.def("groupTravelled", &travelled, (arg("name")), "Displacement of a group so far [m].")
 		.def("groupWork", &work, (arg("name")), "Work that a group has done on the blocks [J].")

@@ -49,6 +49,7 @@ blocks::SofteningParams JointMat::softening() const
 vector<shared_ptr<JointMat>> checkedJoints(const py::object& list)
 {
 	vector<shared_ptr<JointMat>> checked;
+	if (!PySequence_Check(list.ptr())) throw std::invalid_argument("joints must be a list of JointMat, got " + string(py::extract<string>(py::str(list))));
 	for (long i = 0; i < py::len(list); ++i) {
 		const py::extract<shared_ptr<JointMat>> extracted(list[i]);
 		if (!extracted.check()) throw std::invalid_argument("joints must be a list of JointMat, got " + string(py::extract<string>(py::str(list[i]))));

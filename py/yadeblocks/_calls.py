@@ -1,0 +1,161 @@
+# yade-blocks, GPL-2.0-or-later
+"""What is said where our classes are called with a wrong type, a word that is not known or too few arguments: a sentence with name, rule and value, in
+place of Boost's list of C++ signatures. Attributes that do not exist are refused, which Boost would add in silence.
+
+Nothing is looked at unless a call has failed already: calls that are right cost nothing but one function of Python's."""
+import difflib
+import functools
+import inspect
+import re
+
+_ours = re.compile(r"(Block\w*|JointMat|JointPhys|NumpyLaw|(Ig2|Ip2|Law2|Bo1)_Block\w*)$")
+_words = {
+	"float": "a number", "int": "a whole number", "str": "a text", "bool": "True or False", "tuple": "a tuple", "list": "a list", "dict": "a dictionary",
+	"Vector2": "a vector (x, y)", "Vector3": "a vector (x, y, z)"
+}
+
+
+def install(wrapper):
+	"""Puts itself in front of the methods of our classes in yade.wrapper; once."""
+	for kind in [kind for name, kind in vars(wrapper).items() if _ours.match(name) and isinstance(kind, type)]:
+		if "__setattr__" in vars(kind): continue # a class that knows itself what to do
+		for name, member in list(vars(kind).items()):
+			if type(member).__name__ == "function" and type(member).__module__ == "Boost.Python" and not name.startswith("_"):
+				setattr(kind, name, _explained(kind, name, member))
+		kind.__init__ = _made(kind, kind.__init__)
+		kind.__setattr__ = _set
+
+
+def _explained(kind, name, method):
+	parameters = _parameters(name, method.__doc__ or "")
+
+	@functools.wraps(method, assigned=("__doc__", ), updated=())
+	def call(self, *given, **named):
+		try:
+			return method(self, *given, **named)
+		except TypeError as error:
+			if type(error).__name__ != "ArgumentError": raise
+			said = _said(f"{kind.__name__}.{name}", parameters, given, named)
+		if said is None and parameters is not None: # numpy's whole numbers and single precision, which Boost does not know
+			try:
+				return method(self, *map(_plain, given), **{word: _plain(value) for word, value in named.items()})
+			except TypeError as error:
+				if type(error).__name__ != "ArgumentError": raise
+		raise TypeError(said or f"{kind.__name__}.{name} was called with what it does not take; it is {kind.__name__}.{name}{_signature(parameters)}")
+
+	del call.__wrapped__ # inspect would ask Boost, which has no answer
+	call.__name__, call.__qualname__ = name, f"{kind.__name__}.{name}"
+	if parameters is not None:
+		call.__signature__ = inspect.Signature(
+			[inspect.Parameter("self", inspect.Parameter.POSITIONAL_OR_KEYWORD)] +
+			[inspect.Parameter(word, inspect.Parameter.POSITIONAL_OR_KEYWORD, default=default) for word, _, default in parameters]
+		)
+	return call
+
+
+def _parameters(name, doc):
+	"""Name, type and default (a text) of each argument behind the first, from the signature that Boost writes into a docstring; None without one."""
+	head = re.match(rf"\s*{name}\( \(\w+\)arg1(.*?)\]*\) -> [\w ]+ ?:?\n", doc, re.S)
+	if not head: return None
+	found = re.findall(r"\((\w+)\)(\w+)(?:=((?:'[^']*'|[^\[\]]|\[\])*?))?(?=,? ?\[,|, \(|\s*$)", head.group(1))
+	return [(word, kind, _Shown(default) if default else inspect.Parameter.empty) for kind, word, default in found]
+
+
+class _Shown(str):
+	"""A default as Boost shows it."""
+	def __repr__(self):
+		return str(self).strip()
+
+
+def _signature(parameters):
+	return "(" + ", ".join(word if default is inspect.Parameter.empty else f"{word}={default!r}" for word, _, default in parameters or ()) + ")"
+
+
+def _said(name, parameters, given, named):
+	"""What is wrong with a call, or None."""
+	if parameters is None: return None
+	words = [word for word, _, _ in parameters]
+	if len(given) > len(words): return f"{name} takes {len(words)} arguments at most, got {len(given)}: {name}{_signature(parameters)}"
+	for word in named:
+		if word not in words: return f"{name} has no argument {word}{_closest(word, words)}; known: {' '.join(words) or 'none'}"
+		if word in words[:len(given)]: return f"{name}.{word} must be given once, got {given[words.index(word)]!r} and {named[word]!r}"
+	values = {**dict(zip(words, given)), **named}
+	missing = [word for word, _, default in parameters if default is inspect.Parameter.empty and word not in values]
+	if missing: return f"{name} needs {' and '.join(missing)}: {name}{_signature(parameters)}"
+	wrong = [(word, kind) for word, kind, _ in parameters if word in values and not _fits(values[word], kind)]
+	return f"{name}.{wrong[0][0]} must be {_words.get(wrong[0][1], wrong[0][1])}, got {values[wrong[0][0]]!r}" if wrong else None
+
+
+def _fits(value, kind):
+	"""Whether Boost would take a value for a type."""
+	if kind == "str": return isinstance(value, str)
+	if kind in ("int", "float", "bool"):
+		if isinstance(value, str) or value is None: return False
+		try:
+			return bool(kind != "int" or int(value) == value) and isinstance(float(value), float)
+		except (TypeError, ValueError):
+			return False
+	if kind.startswith("Vector"):
+		try:
+			return len(value) == int(kind[-1]) and all(isinstance(float(part), float) for part in value)
+		except (TypeError, ValueError):
+			return False
+	return True
+
+
+def _plain(value):
+	"""A number of numpy's as Python's."""
+	return value.item() if hasattr(value, "item") and getattr(value, "ndim", 1) == 0 else value
+
+
+def _closest(word, known):
+	names = {name.lower(): name for name in known}
+	close = difflib.get_close_matches(word.lower(), names, 1)
+	return f" (did you mean {names[close[0]]}?)" if close else ""
+
+
+def _attributes(kind):
+	return [name for name in dir(kind) if not name.startswith("_") and isinstance(getattr(kind, name), property)]
+
+
+def _made(kind, initialise):
+	@functools.wraps(initialise, assigned=("__doc__", ), updated=())
+	def make(self, *given, **named):
+		try:
+			return initialise(self, *given, **named)
+		except (TypeError, AttributeError) as error:
+			said = _ofAttributes(type(self), named, error)
+			if said is None: raise
+		raise said
+
+	return make
+
+
+def _ofAttributes(kind, named, error):
+	"""The error to raise where keyword arguments of a class failed, or None."""
+	known = _attributes(kind)
+	for word in named:
+		if word not in known and f" {word}." in str(error):
+			return AttributeError(f"{kind.__name__} has no attribute {word}{_closest(word, known)}; known: {' '.join(known)}")
+	if "No registered converter" not in str(error): return None
+	wrong = re.search(r"of type (.+) from this Python object of type (.+)$", str(error))
+	type_, got = {"double": "float", "std::string": "str"}.get(wrong.group(1), wrong.group(1)), wrong.group(2)
+	if "basic_string" in type_: type_ = "str"
+	plain = kind()
+	words = [
+		word for word, value in named.items()
+		if type(value).__name__ == got and not _fits(value, type_) and type(getattr(plain, word, None)).__name__ in (type_, "NoneType")
+	]
+	return TypeError(f"{kind.__name__}.{words[0]} must be {_words.get(type_, type_)}, got {named[words[0]]!r}") if words else None
+
+
+def _set(self, name, value):
+	kind = type(self)
+	if name.startswith("__") or hasattr(kind, name):
+		try:
+			return object.__setattr__(self, name, value)
+		except TypeError as error:
+			if type(error).__name__ != "ArgumentError": raise
+			present = getattr(self, name)
+		raise TypeError(f"{kind.__name__}.{name} must be {_words.get(type(present).__name__, type(present).__name__)}, got {value!r}")
+	raise AttributeError(f"{kind.__name__} has no attribute {name}{_closest(name, _attributes(kind))}; known: {' '.join(_attributes(kind))}")

@@ -1,0 +1,110 @@
+# yade-blocks, GPL-2.0-or-later
+"""Diagonal compression of a small wall (ASTM E519, RILEM LUMB6): shear strength from the largest load along a diagonal.
+
+Two bricks by seven courses, nearly square, bed and head joints without thickness that soften; the lower left corner is held, the upper
+right one, a tenth of each side, is driven along the diagonal without turning. Strength is 0.707 P by the mean area of the two sides.
+
+	scripts/run.sh diagonal [key=value ...]        about 10 s
+
+Expected: while all is elastic, a tension of 0.5 P / A in the centre (RILEM, from Frocht 1931, for a body without joints). Joints have the
+properties of the wall J4D. There is no measurement with these properties; if all of one bed joint slid at once the strength would be
+cohesion / (1 - friction), a bound that it must not pass.
+"""
+from math import atan
+
+import numpy as np
+
+import yadeblocks # noqa: F401 (loads the plugin)
+from yade import *
+from yadeblocks import brickwork, curves, loading, pictures, picturesfields, scenario
+from yadeblocks.engines import loopList
+from yadeblocks.export import principalStresses
+from yadeblocks.pace import Pace
+from yadeblocks.recording import Recorder
+from yadeblocks.results import Cracks
+from yadeblocks.scenario import Key
+from yadeblocks.session import Session
+from yadeblocks.snapshot import Film
+from yadeblocks.specimen import nodesWhere
+
+# ---- parameters (SI)
+
+bricks, courses, length, height, gap, thickness = 2, 7, 0.21, 0.052, 0.01, 0.1 # [m]
+brick = dict(young=16.7e9, poisson=0.15, density=1900)
+p = scenario.parameters({
+	**scenario.usualParameters(threads=1, tag='', alpha=0.3, stroke=1e-3, steps=30000), 'cohesion': Key(
+		0.35e6, 'cohesion of the joints', 'Pa', scenario.positive
+	), 'friction': Key(0.75, 'friction coefficient of the joints', rule=(lambda f: 0 <= f < 1, 'must lie in [0, 1): beyond, no bed joint would slide')),
+	'tension': Key(0.25e6, 'tensile strength of the joints', 'Pa',
+			scenario.positive), 'kn': Key(82e9, 'normal stiffness of the joints', 'Pa/m',
+							scenario.positive), 'ks': Key(36e9, 'shear stiffness of the joints', 'Pa/m', scenario.positive),
+	'GfI': Key(18., 'fracture energy in tension', 'N/m', scenario.positive), 'GfII': Key(125., 'fracture energy in shear', 'N/m', scenario.positive),
+	'zone': Key(0.03, 'size of the zones', 'm', (lambda s: 0 < s <= 0.1, 'must be positive and at most 0.1'))
+})
+dt = 1e-4 # [s]; masses are scaled to suit
+wide, high = bricks * (length + gap), courses * (height + gap)
+area = (wide + high) / 2 * thickness
+
+
+def build():
+	"""The wall; its joints by name."""
+	O.reset()
+	O.materials.append(BlockMat(label='unit', **brick))
+	model = BlockModel(thickness=thickness, planeStress=True)
+	placed = brickwork.runningBond(bricks, courses, length, height, gap).addTo(model, 'unit', zoneSize=p.zone)
+	strengths = dict(cohesion=p.cohesion, tension=p.tension, frictionAngle=atan(p.friction), GfI=p.GfI, GfII=p.GfII)
+	joints = placed.bond(model, [JointMat(material1='unit', material2='unit', kn=p.kn, ks=p.ks, **strengths)])
+	shoe = lambda x, y: ((x < 1e-9) & (y < 0.1 * high + 1e-9)) | ((y < 1e-9) & (x < 0.1 * wide + 1e-9))
+	model.drive('support', nodesWhere(model, shoe), 'xy')
+	model.drive(
+		'shoe', nodesWhere(model, lambda x, y: shoe(wide - x, high - y)), 'xy', velocity=-p.stroke / 2**0.5 / (p.steps * dt),
+		rampTime=0.1 * p.steps * dt
+	)
+	model.insert()
+	O.dt, O.engines = dt, loopList(contact=True, alpha=p.alpha)
+	return model, joints
+
+
+def along(model, name):
+	"""Force of a group on the blocks along the diagonal upwards [N]."""
+	return sum(model.groupForce(name, axis=axis) for axis in 'xy') / 2**0.5
+
+
+def centreTension(model):
+	"""Larger principal stress of the mean stress within a tenth of the sides of the centre [Pa]."""
+	away = abs(model.reference[model.zoneNodes].mean(axis=1) / (wide, high) - 0.5).max(axis=1)
+	near = away < 0.1
+	return principalStresses(np.average(model.zoneStress()[near], axis=0, weights=model.zoneVolume[near])[None])[0, 0]
+
+
+# ---- running
+
+with Session(p) as session:
+	with session.run(1) as run:
+		with run.stepping():
+			model, joints = build()
+			cracks, film = Cracks(model, joints), Film(model)
+			stop, pace = loading.Stop(drop=0.5, displacement=p.stroke), Pace(model, lambda: along(model, 'shoe'), lambda: along(model, 'support'))
+			record = Recorder(
+				path=lambda: -2**0.5 * model.groupTravelled('shoe'), load=lambda: -along(model, 'shoe'), centre=lambda: centreTension(model),
+				broken=cracks.look, damage=lambda: model.pointDamage.max()
+			)
+			record.after(lambda row: film.look(row.path / p.stroke, row.load, O.time)).after(lambda row: pace(row.damage > 0.1))
+			record.after(lambda row: stop(row.path, row.load, row.broken))
+			O.engines += [record.engine(20)]
+			O.run(2 * p.steps, True)
+		load = record['load']
+		strength, peak = curves.peak(record['path'], load)
+		whole = (record['damage'] < 1e-9) & (load > 0.05 * strength)
+		run.add('diagonal_shear_strength', 'MPa', 0.707 * strength / area / 1e6)
+		run.add('share_of_the_bound', '1', 0.707 * strength / area / (p.cohesion / (1 - p.friction)))
+		run.add('path_at_peak', 'mm', 1e3 * record['path'][peak])
+		elastic = np.mean(record['centre'][whole] / load[whole]) * area if whole.any() else np.nan
+		run.add('centre_tension_by_load', '1', elastic, 0.5, 'RILEM LUMB6, from Frocht 1931, without joints')
+		run.curve(path_mm=1e3 * record['path'], load_kN=load / 1e3, centre_MPa=record['centre'] / 1e6, broken=record['broken'])
+		run.model(model, steps=O.iter, names=joints)
+	session.write()
+	session.picture('cracks.png', pictures.drawCracks, model, title='Diagonal compression', names=joints)
+	session.picture('sheet.png', picturesfields.drawSheet, film.peak, title='Diagonal compression, at the peak')
+	session.picture('curve.png', pictures.drawCurve, session.results.curves, 'path_mm', 'load_kN', ('shortening of the diagonal [mm]', 'load [kN]'))
+scenario.waitIfBatch()

@@ -1,0 +1,77 @@
+# yade-blocks, GPL-2.0-or-later
+"""Structures at three costs: the error of each quantity that has an expected value, over the CPU time of the run."""
+import math
+from pathlib import Path
+
+from .jobs import Job
+
+#: Scenario -> (quantities, three settings from cheap to dear).
+costs = {
+	"drywall": (("limit_multiplier", ), ({"precision": 2e-2, "steps": 1000}, {}, {"precision": 5e-4, "steps": 16000})),
+	"arch": (("limit_thickness_ratio", ), ({"precision": 2e-2}, {}, {"precision": 5e-4})),
+	"rocking": (("quarter_period", ), ({"kn": 1e8}, {}, {"kn": 1e12})), "disc": (("centre_stress", ), ({"zone": 4e-3, "vtk": False}, {"vtk": False}, {
+		"zone": 1e-3, "vtk": False
+	})), "triplet": (("cohesion", "friction"), ({"steps": 2500}, {}, {"steps": 40000})), "wall": (("peak_shear_force", "force_at_0.2_mm"), ({
+		"steps": 20000, "vtk": False, "sheets": False
+	}, {"vtk": False, "sheets": False}, {"steps": 160000, "vtk": False, "sheets": False}))
+}
+
+
+def jobsOf(names=tuple(costs)):
+	"""All runs."""
+	return [Job(name, settings, None) for name in names for settings in costs[name][1]]
+
+
+def rows(record):
+	"""Scenario, settings, quantity, CPU seconds, measured, expected, error for all runs; record: Job -> what Jobs.record gives."""
+	for name, (quantities, settings) in costs.items():
+		for some in settings:
+			kept = record(Job(name, some, None)) or {"failed": "not run"}
+			for quantity in quantities:
+				row = dict(
+					scenario=name, settings=" ".join(f"{key}={value}" for key, value in some.items() if key not in ("vtk", "sheets")),
+					quantity=quantity
+				)
+				if "failed" in kept: yield {**row, "failed": kept["failed"]}
+				else:
+					measured, expected = kept["reported"][quantity], kept["expected"].get(quantity)
+					yield {
+						**row, "cpu_s": kept["cost"]["cpu_s"], "measured": measured, "expected": expected,
+						"error": (measured - expected) / expected if expected else math.nan
+					}
+
+
+def asMarkdown(all):
+	"""The table."""
+	lines = ["| scenario | settings | quantity | expected | measured | error | CPU s |", "|---|---|---|---|---|---|---|"]
+	for row in all:
+		numbers = f"| {row['failed']} | | |" if "failed" in row else f"{row['measured']:.4g} | {100 * row['error']:+.2f} % | {row['cpu_s']:.2g} |"
+		expected = "" if "failed" in row else f"{row['expected']:.4g}"
+		lines.append(f"| {row['scenario']} | {row['settings'] or 'default'} | {row['quantity']} | {expected} | {numbers}")
+	return "\n".join(lines) + "\n"
+
+
+def draw(path, all):
+	"""The size of the error over CPU seconds, a line for each quantity."""
+	from yadeblocks import pictures
+	groups = {}
+	for row in all:
+		if "failed" not in row and row["error"]:
+			groups.setdefault((row["scenario"], row["quantity"]), []).append((row["cpu_s"], abs(100 * row["error"])))
+	with pictures._picture(path, 6.3, 4) as figure:
+		axes = figure.add_subplot(xscale="log", yscale="log", xlabel="CPU time [s]", ylabel="error [%]")
+		for (name, quantity), places in groups.items():
+			axes.plot(*zip(*sorted(places)), "o-", markersize=3.5, linewidth=0.9, label=f"{name}, {quantity.replace('_', ' ')}")
+		axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1))
+
+
+def report(record, folder):
+	"""structures.md, .csv and .png in a folder; the table."""
+	import pandas
+	all = list(rows(record))
+	folder = Path(folder)
+	pandas.DataFrame(all).to_csv(folder / "structures.csv", index=False, float_format="%.6g")
+	text = asMarkdown(all)
+	(folder / "structures.md").write_text("# Structures at three costs\n\n" + text)
+	draw(folder / "structures.png", all)
+	return text
