@@ -57,7 +57,8 @@ def poissonOf(model):
 
 
 def reactionsOf(model):
-	"""What holds, drives and presses a model: a list of (name, place [m], force on the blocks [N]) of its groups and of held rigid blocks. A Snapshot's own."""
+	"""What holds, drives and presses a model: a list of (name, place [m], force on the blocks [N]) of its groups and of held rigid
+	blocks. A Snapshot's own."""
 	if not hasattr(model, "groupNodes"): return getattr(model, "reactions", [])
 	found = []
 	for name in model.groups:

@@ -66,7 +66,8 @@ else:
 cpu = time.process_time() - start
 rss = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 print("COST " + json.dumps(dict(
-	zones=model.zoneCount, points=model.contactCount, start=start, cpu=cpu, peak=peak / area / 1e6, count=int(count), broken=int(broken), rss=rss, ended=told
+	zones=model.zoneCount, points=model.contactCount, start=start, cpu=cpu,
+	peak=peak / area / 1e6, count=int(count), broken=int(broken), rss=rss, ended=told
 )))
 '''
 

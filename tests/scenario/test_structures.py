@@ -93,8 +93,8 @@ def test_wall(tmp_path):
 
 @needsYade
 def test_diagonal(tmp_path):
-	"""Stronger than the joints' tension in the centre, weaker than if a bed joint slid all at once; the tension in the centre is that of a body without joints but
-	for what these give way, a fifth; the crack runs through head joints in tension and bed joints in shear."""
+	"""Stronger than the joints' tension in the centre, weaker than if a bed joint slid all at once; the tension in the centre is that of a body
+	without joints but for what these give way, a fifth; the crack runs through head joints in tension and bed joints in shear."""
 	found = measured(tmp_path, "diagonal", "steps=15000")
 	assert 0.25 < found["diagonal_shear_strength"][0] and 0.4 < found["share_of_the_bound"][0] < 0.7
 	assert found["centre_tension_by_load"][0] == pytest.approx(0.5, rel=0.2)

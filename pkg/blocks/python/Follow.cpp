@@ -37,7 +37,7 @@ const char* const followDoc
 	  "has moved by displacement [m] from here; so many contact points have broken (cracks); progress(displacement [m], force [N], broken) returned False; "
 	  "the path "
 	  "ends by itself ('ended' says where and why: blocks have slid, parted or overlap by more than a tenth of an edge; no admissible state; equilibrium "
-          "lost; nothing left "
+	  "lost; nothing left "
 	  "to break). It knows joints alone: blocks that meet in a corner without a joint do not feel each other. "
 	  "release: 'path' lets the load fall where that keeps the next point whole, as a machine of infinite stiffness and speed would (snap-back); 'cascade' "
 	  "holds it while points "
