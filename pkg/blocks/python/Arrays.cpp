@@ -3,6 +3,7 @@
 #include <blocks/kernel/analysis/StabilityWatch.hpp>
 #include <blocks/kernel/geometry/Zoning.hpp>
 #include <blocks/kernel/model/Fingerprint.hpp>
+#include <blocks/kernel/model/Outline.hpp>
 #include <blocks/kernel/step/Contacts.hpp>
 #include <blocks/kernel/step/Joints.hpp>
 #include <blocks/kernel/step/ZoneForces.hpp>
@@ -96,22 +97,10 @@ namespace {
 		if (block < 0 || block >= a.blockCount())
 			throw std::invalid_argument(
 				"BlockModel.cornerTriangles: block must lie in [0, " + std::to_string(a.blockCount()) + "), got " + std::to_string(block));
-		std::vector<int>          corners; // grid points of the rings, one ring after the other
-		std::vector<blocks::Ring> rings;
-		for (int e = a.mesh.firstEdge[block], first = -1; e < a.mesh.firstEdge[block + 1]; ++e) {
-			const auto [node, next] = a.mesh.edgeNodes[e];
-			if (first < 0) rings.emplace_back(), first = node;
-			rings.back().push_back(a.mesh.reference[node]);
-			corners.push_back(node);
-			if (next == first) first = -1;
-		}
-		const blocks::Zones zones = blocks::cornerZones(blocks::Polygon { rings[0], { rings.begin() + 1, rings.end() } });
+		const auto triangles = blocks::cornerTriangles(a, block);
 		startNumpy();
-		np::ndarray out  = np::empty(py::make_tuple(zones.triangles.size(), 3), np::dtype::get_builtin<int>());
-		int*        data = reinterpret_cast<int*>(out.get_data());
-		for (const auto& triangle : zones.triangles)
-			for (int corner : triangle)
-				*data++ = corners[corner];
+		np::ndarray out = np::empty(py::make_tuple(triangles.size(), 3), np::dtype::get_builtin<int>());
+		if (!triangles.empty()) std::copy_n(triangles.data()->data(), 3 * triangles.size(), reinterpret_cast<int*>(out.get_data()));
 		return out;
 	}
 

@@ -3,7 +3,7 @@
 #include <blocks/kernel/geometry/Polygon.hpp>
 #include <blocks/kernel/geometry/Tessellation.hpp>
 #include <blocks/kernel/geometry/Zoning.hpp>
-#include <blocks/kernel/model/ContactDetection.hpp>
+#include <blocks/kernel/model/Outline.hpp>
 #include <blocks/python/Building.hpp>
 #include <blocks/views/Materials.hpp>
 #include <map>

@@ -1,7 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
-#include <blocks/kernel/geometry/Zoning.hpp>
-#include <blocks/kernel/model/ContactDetection.hpp>
+#include <blocks/kernel/model/Outline.hpp>
 #include <blocks/window/Colours.hpp>
 #include <blocks/window/Gl1_Block.hpp>
 #include <lib/opengl/gl.hpp>
@@ -39,19 +38,7 @@ namespace {
 	const vector<std::array<int, 3>>& trianglesOf(const blocks::BlockAssembly& a, int block)
 	{
 		auto& known = picture.rigidTriangles[block];
-		if (!known.empty()) return known;
-		vector<int>          corners;
-		vector<blocks::Ring> rings;
-		for (int e = a.mesh.firstEdge[block], first = -1; e < a.mesh.firstEdge[block + 1]; ++e) {
-			const auto& edge = a.mesh.edgeNodes[e];
-			if (first < 0) rings.emplace_back(), first = edge[0];
-			rings.back().push_back(a.mesh.reference[edge[0]]);
-			corners.push_back(edge[0]);
-			if (edge[1] == first) first = -1;
-		}
-		const blocks::Zones zones = blocks::cornerZones(blocks::Polygon { rings[0], { rings.begin() + 1, rings.end() } });
-		for (const auto& t : zones.triangles)
-			known.push_back({ corners[t[0]], corners[t[1]], corners[t[2]] });
+		if (known.empty()) known = blocks::cornerTriangles(a, block);
 		return known;
 	}
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <blocks/kernel/geometry/Polygon.hpp>
 #include <blocks/kernel/model/ContactDetection.hpp>
+#include <blocks/kernel/model/Outline.hpp>
 #include <limits>
 #include <numeric>
 
@@ -97,18 +98,6 @@ namespace {
 	}
 
 } // namespace
-
-Polygon outlineOf(const BlockAssembly& a, int block)
-{
-	std::vector<Ring> rings;
-	for (int e = a.mesh.firstEdge[block], first = -1; e < a.mesh.firstEdge[block + 1]; ++e) {
-		const auto& edge = a.mesh.edgeNodes[e];
-		if (first < 0) rings.emplace_back(), first = edge[0];
-		rings.back().push_back(a.position(edge[0]));
-		if (edge[1] == first) first = -1;
-	}
-	return { rings[0], { rings.begin() + 1, rings.end() } };
-}
 
 std::vector<Segment> detectSegments(const BlockAssembly& a, Real tolerance)
 {

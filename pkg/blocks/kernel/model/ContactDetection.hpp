@@ -10,9 +10,6 @@ namespace blocks {
 /// to the common surface. Blocks that penetrate each other by more than the tolerance, or lie one within another, are refused. Works in n log n.
 std::vector<Segment> detectSegments(const BlockAssembly&, Real tolerance = 1e-6);
 
-/// A block's present outline, with its holes [m].
-Polygon outlineOf(const BlockAssembly&, int block);
-
 /// Two blocks that touch, or nearly, and have no joint.
 struct Unjoined {
 	std::array<int, 2> block;
