@@ -76,24 +76,26 @@ def _stretch(O, last, until):
 	"""Runs on; whether this was all. If not, the run rests between two steps because the time `until` has come. last: the step to stop at, 0 for none."""
 	errors, asked, O.stopAtIter = [], False, last
 	over = threading.Event() # not Thread.join: interrupted, it takes the thread for one that has ended (Python 3.11)
+	given = threading.Lock() # the thread runs YADE only if it is the first to take this
+	mine = lambda: given.acquire(blocking=False)
 
 	def work():
 		try:
-			O.run(-1, True)
+			if mine(): O.run(-1, True)
 		except BaseException as error:
 			errors.append(error)
 		finally:
 			over.set()
 
 	first, began = O.iter, time.monotonic()
-	threading.Thread(target=work, daemon=True).start()
 	try:
+		threading.Thread(target=work, daemon=True).start() # an interrupt may come in here, before the thread begins or behind
 		while not over.wait(look if until is None else max(0, min(look, until - time.monotonic()))):
 			if until is not None and time.monotonic() >= until:
 				asked = True
 				_rest(O, over, last, began, first)
 	except BaseException:
-		_rest(O, over, last, began, first)
+		if not mine(): _rest(O, over, last, began, first)
 		raise
 	if errors: raise errors[0]
 	return not asked or _ending.is_set() or O.iter == last > 0

@@ -6,6 +6,7 @@
 import random
 import shutil
 import signal
+import threading
 
 import pytest
 
@@ -46,6 +47,29 @@ def test_aPauseThatComesTooLateIsAskedForAgain():
 	O.engines, paused = [], []
 	running.run(3000000, pause=lambda: paused.append(O.iter), every=0.2)
 	assert paused and O.iter == 3000000
+
+
+@pytest.mark.parametrize('begins', [True, False])
+def test_anInterruptWhileTheRunStarts(begins, monkeypatch):
+	"""An interrupt may come in before the thread of the run begins, or just behind: when it is passed on nothing runs any more, and nothing begins later."""
+	O.reset()
+	O.engines, waiting, start = [], [], threading.Thread.start
+
+	def interrupted(thread):
+		start(thread) if begins else waiting.append(thread)
+		while begins and O.iter < 100: time.sleep(0.001)
+		raise running.Interrupted(signal.SIGINT)
+
+	with monkeypatch.context() as patch:
+		patch.setattr(threading.Thread, 'start', interrupted)
+		with pytest.raises(running.Interrupted): running.run(100000000)
+	for thread in waiting:
+		start(thread)
+		thread.join(10)
+	steps = O.iter
+	assert not O.running and (steps >= 100) == begins
+	time.sleep(0.05)
+	assert O.iter == steps
 
 
 @pytest.mark.parametrize('name', list(quick))
