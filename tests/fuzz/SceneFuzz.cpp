@@ -202,7 +202,9 @@ Real adjustStep(Case& c, long& version)
 	version              = a.contacts.version;
 	const Real before    = gridPointsKineticEnergy(a); // what rigid blocks gain is booked as their work
 	const auto stiffness = nodalStiffness(a);
-	const Real trueLimit = std::min(stableTimeStep(a, stiffness, a.mesh.mass), rigidTimeStep(a, stiffness, Masses::actual));
+	const auto touching  = touchStiffness(a, stiffness);
+	const Real trueLimit = std::min(stableTimeStep(a, touching, a.mesh.mass), rigidTimeStep(a, touching, Masses::actual));
+	a.contacts.mostAStep = c.scaled ? nearing::scaledMasses : nearing::trueMasses;
 	if (c.scaled && c.dt > 0) {
 		scaleInertia(a, stiffness, c.dt, c.safety);
 		std::vector<Vec3> old;

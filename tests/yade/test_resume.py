@@ -57,12 +57,14 @@ def test_anInterruptWhileTheRunStarts(begins, monkeypatch):
 
 	def interrupted(thread):
 		start(thread) if begins else waiting.append(thread)
-		while begins and O.iter < 100: time.sleep(0.001)
+		while begins and O.iter < 100:
+			time.sleep(0.001)
 		raise running.Interrupted(signal.SIGINT)
 
 	with monkeypatch.context() as patch:
 		patch.setattr(threading.Thread, 'start', interrupted)
-		with pytest.raises(running.Interrupted): running.run(100000000)
+		with pytest.raises(running.Interrupted):
+			running.run(100000000)
 	for thread in waiting:
 		start(thread)
 		thread.join(10)

@@ -7,19 +7,28 @@
 #include <iostream>
 
 namespace yade {
+namespace {
+
+	Real limitOf(const blocks::BlockAssembly& a, const vector<Real>& stiffness)
+	{
+		return std::min(blocks::stableTimeStep(a, stiffness, a.mesh.mass), blocks::rigidTimeStep(a, stiffness, blocks::Masses::actual));
+	}
+
+} // namespace
 
 Real StepLength::adjust(Scene* scene, BlockModel& model, Real safety, bool quasiStatic, const char* engine)
 {
 	blocks::BlockAssembly& a        = model.assembly;
 	Real&                  scaling  = a.state.accounts.scaling;
 	const bool             tracking = scene->trackEnergy;
+	a.contacts.mostAStep            = quasiStatic ? blocks::nearing::scaledMasses : blocks::nearing::trueMasses;
 	noteFreedom(scene, model);
 	if (tracking && scalingId < 0) scene->energy->set(scaling, "blockScaling", scalingId);
 	if (model.stiffnessVersion() == doneVersion && scene->dt == doneDt && safety == doneSafety && quasiStatic == doneQuasiStatic) return limit;
 	blocks::require(safety > 0 && safety <= 0.95, std::string(engine) + ".safety must lie in (0, 0.95]", safety);
 
 	const auto& stiffness = model.stiffness();
-	limit                 = std::min(blocks::stableTimeStep(a, stiffness, a.mesh.mass), blocks::rigidTimeStep(a, stiffness, blocks::Masses::actual));
+	limit                 = limitOf(a, stiffness);
 	const Real kinetic    = tracking ? blocks::gridPointsKineticEnergy(a) : 0;
 	if (quasiStatic) {
 		blocks::require(scene->dt > 0 && std::isfinite(scene->dt), "O.dt must be positive and finite [s]", scene->dt);
@@ -27,7 +36,7 @@ Real StepLength::adjust(Scene* scene, BlockModel& model, Real safety, bool quasi
 		blocks::scaleRigidInertia(a, stiffness, scene->dt, safety);
 	} else {
 		if (std::isfinite(limit))
-			scene->dt = safety * limit;
+			scene->dt = safety * (a.contacts.order.empty() ? limit : limitOf(a, blocks::touchStiffness(a, stiffness)));
 		else if (toldDt != scene->dt) { // only rigid blocks, and they touch nothing
 			toldDt = scene->dt;
 			std::cerr << "WARN " << engine << ": nothing limits the time step, as no block has zones and none touches another; O.dt stays "

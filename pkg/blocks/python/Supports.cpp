@@ -179,7 +179,8 @@ void defineSupports(PythonModel& c)
 	c.def("drive",
 	      &drive,
 	      (arg("name"), arg("nodes"), arg("axes"), arg("velocity") = 0., arg("rampTime") = 0., arg("startTime") = 0.),
-	      "Prescribes the velocity [m/s] of grid points along 'x', 'y' or 'xy' (0: held), reached smoothly within rampTime [s] after startTime [s].")
+	      "Prescribes the velocity [m/s] of grid points along 'x', 'y' or 'xy' (0: held), reached smoothly within rampTime [s] after startTime [s]. Too "
+	      "fast, a quasi-static model is too strong: halve the velocity and compare.")
 		.def("push",
 	             &push,
 	             (arg("name"), arg("nodes"), arg("axis"), arg("force"), arg("rampTime") = 0., arg("startTime") = 0.),

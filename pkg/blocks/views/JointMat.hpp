@@ -30,7 +30,7 @@ public:
 		((Real, frictionAngle, 0, , "Friction angle Jfric [rad]."))
 		((Real, cohesion, 0, , "Cohesion Jcoh [Pa]."))
 		((Real, tension, 0, , "Tensile strength (tension cut-off) Jten [Pa]."))
-		((Real, dilationAngle, 0, , "Dilation angle Jdil [rad]; at most frictionAngleResidual, or sliding would make energy."))
+		((Real, dilationAngle, 0, , "Dilation angle Jdil [rad]; at most frictionAngleResidual, or sliding would make energy. The joint opens by tan(dilationAngle) times its largest slip so far: sliding back lowers nothing, and a joint that slid while it was open closes on the raised place, which lifts its blocks."))
 		((Real, frictionAngleResidual, -1, , "Friction angle after failure Jfric_res [rad]; -1: as before."))
 		((Real, cohesionResidual, 0, , "Cohesion after failure Jcoh_res [Pa]."))
 		((Real, tensionResidual, 0, , "Tensile strength after failure [Pa]."))

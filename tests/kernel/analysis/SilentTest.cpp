@@ -108,19 +108,26 @@ namespace {
 /// share: of the depth at which their contact is lost, a step; phase: of a step, by which the first touch is shifted; first: how deep it is [m].
 Real offBalance(Real share, Real phase, Real safety, Real kn = 1e11, Real* first = nullptr)
 {
-	BlockAssembly a = approaching(0, 0.1, kn);
-	Damping       none;
-	none.kind = Damping::Kind::none;
-	Real dt   = safety * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
-	blocks::computeForces(a, Brittle {}, dt);
-	dt             = safety * stableTimeStep(a, nodalStiffness(a), a.state.inertia); // with their contact
-	const Real way = share * 0.025;                                                  // area by outline
+	Damping none;
+	none.kind     = Damping::Kind::none;
+	auto nearEach = [&](Real gap) {
+		BlockAssembly a = approaching(0, 0.1, kn);
+		for (int n = a.mesh.firstNode[1]; n < a.nodeCount(); ++n)
+			a.state.displacement[n].x() -= 0.05 - gap;
+		return a;
+	};
+	auto          stepOf   = [&](const BlockAssembly& a) { return safety * stableTimeStep(a, touchStiffness(a, nodalStiffness(a)), a.state.inertia); };
+	const Real    way = share * 0.025, v = way / stepOf(nearEach(0.05)); // 0.025: area by outline
+	BlockAssembly a = nearEach((3 - phase) * way);
 	for (int n = a.mesh.firstNode[1]; n < a.nodeCount(); ++n)
-		a.state.velocity[n] = { -way / dt, 0 }, a.state.displacement[n].x() -= 0.05 - 3 * way + phase * way;
-	const Real before  = kineticEnergy(a);
-	bool       touched = false, parted = false;
+		a.state.velocity[n] = { -v, 0 };
+	const Real before    = kineticEnergy(a);
+	Real       dt        = stepOf(a);
+	a.contacts.mostAStep = nearing::trueMasses;
+	bool touched = false, parted = false;
 	for (int i = 0; i < 20000 && !parted; ++i) {
 		blocks::computeForces(a, Brittle {}, dt);
+		dt           = stepOf(a); // as the engines do
 		bool touches = false;
 		for (const FreeContact& c : a.state.contacts) {
 			touches |= !c.active.empty();
@@ -143,26 +150,20 @@ Real offBalance(Real share, Real phase, Real safety, Real kn = 1e11, Real* first
 
 } // namespace
 
-TEST(Silent, ATouchKeepsItsEnergyWhereStepsAreFine)
+TEST(Silent, ATouchKeepsItsEnergy)
 {
-	// Within 1 % of what was turned over, whatever part of a step the first touch comes at, up to a twentieth of the depth at which the contact is lost in
-	// a step. (At 7 % of the wave speed it made 1.13 to 11.3 of it, as contacts came late.) That takes safety 0.35: a touch within a step costs or gives
-	// a share of k dt^2 / M, whatever the speed: at safety 0.7 up to 9 % with springs as stiff as these, below 1 % with those of the next test.
-	for (const Real share : { 0.002, 0.01, 0.02, 0.05 })
-		for (int phase = 0; phase < 8; ++phase)
-			EXPECT_LT(std::abs(offBalance(share, phase / 8., 0.35)), 0.01) << "share " << share << ", phase " << phase;
-}
-
-TEST(Silent, ATouchKeepsItsEnergyWhereSpringsAreSoft)
-{
-	for (const Real share : { 0.002, 0.01, 0.02, 0.05 })
-		for (int phase = 0; phase < 8; ++phase)
-			EXPECT_LT(std::abs(offBalance(share, phase / 8., 0.7, 1e10)), 0.01) << "share " << share << ", phase " << phase;
+	// Within 1 % of what was turned over, whatever part of a step the first touch comes at, up to where blocks are refused: where they near each other by
+	// a twentieth of the depth at which the contact is lost, in a step. (At 7 % of the wave speed it made 1.13 to 11.3 of it, as contacts came late.) That
+	// takes the time step for springs that come and go: with that of springs that stay it is up to 9 %, whatever the speed.
+	for (const Real kn : { 1e9, 1e10, 1e11, 1e12, 1e13 })
+		for (const Real share : { 0.002, 0.01, 0.02, 0.04 })
+			for (int phase = 0; phase < 8; ++phase)
+				EXPECT_LT(std::abs(offBalance(share, phase / 8., 0.7, kn)), 0.01) << "kn " << kn << ", share " << share << ", phase " << phase;
 }
 
 TEST(Silent, ATouchIsNeverDeeperThanAStepsMotion)
 {
-	for (const Real share : { 0.002, 0.05, 0.1 })
+	for (const Real share : { 0.002, 0.02, 0.04 })
 		for (int phase = 0; phase < 8; ++phase) {
 			Real first = 0;
 			offBalance(share, phase / 8., 0.7, 1e11, &first);

@@ -75,6 +75,12 @@ struct ContactMemory {
 	Real              mayGo = 0;  ///< until a grid point is this far from lookedAt, nobody need look [m]
 };
 
+/// By which share of the depth at which their contact is lost two blocks may near each other, in a step.
+namespace nearing {
+	constexpr Real trueMasses   = 0.05; ///< they keep their energy within 1 %, see touchStiffness
+	constexpr Real scaledMasses = 0.25; ///< the contact acts in four steps at least before it is lost
+} // namespace nearing
+
 /// Who may touch whom. All of it follows from the state.
 struct FreeContacts {
 	bool wanted    = false; ///< whether the scene has general contact
@@ -93,10 +99,11 @@ struct FreeContacts {
 	std::vector<PairForce>  forces; ///< all of them
 
 	// ---- shapes, from the reference positions
-	std::vector<Real> sharpness, rounding;  ///< of grid points on outlines, see EdgeShape
-	std::vector<int>  edgeFrom;             ///< grid point -> the boundary edge that starts there, or -1
-	std::vector<Real> depthLimit, meanEdge; ///< of blocks [m]
-	Real              leastDepth = 0;       ///< the least of depthLimit [m]
+	std::vector<Real> sharpness, rounding;                ///< of grid points on outlines, see EdgeShape
+	std::vector<int>  edgeFrom;                           ///< grid point -> the boundary edge that starts there, or -1
+	std::vector<Real> depthLimit, meanEdge;               ///< of blocks [m]
+	Real              leastDepth = 0;                     ///< the least of depthLimit [m]
+	Real              mostAStep  = nearing::scaledMasses; ///< set with the masses, as a share of depthLimit
 
 	// ---- how far things have moved
 	std::vector<Sleep> sleep; ///< of the contacts in `order`

@@ -298,11 +298,11 @@ namespace {
 		std::vector<int>    fast;
 		for (int b = 0; b < a.blockCount(); ++b) {
 			mean.push_back(meanVelocity(a, b));
-			if (fastest(a, b, Vec2::Zero()) * dt > mostAStep * f.leastDepth) fast.push_back(b);
+			if (fastest(a, b, Vec2::Zero()) * dt > f.mostAStep * f.leastDepth) fast.push_back(b);
 		}
 		for (const auto& [b, other] : onTheWay(a, fast, mean, dt)) {
 			const Vec2& with  = mean[other];
-			const Real  limit = mostAStep * std::min(f.depthLimit[b], f.depthLimit[other]);
+			const Real  limit = f.mostAStep * std::min(f.depthLimit[b], f.depthLimit[other]);
 			if (((mean[b] - with).norm() + fastest(a, b, mean[b])) * dt <= limit)
 				continue; // they move along together: most do, and need no closer look
 			const Real speed = fastest(a, b, with);
@@ -546,7 +546,7 @@ void prepareContacts(BlockAssembly& a, Real dt, bool account)
 	collectBroken(a);
 	if (!f.waiting.empty()) releaseBroken(a, dt, account);
 	if (f.strangers) f.odometer.fastest = largest(a.state.velocity.data()->data(), 2 * a.nodeCount());
-	if (!first && dt > 0 && !(f.odometer.fastest * dt <= mostAStep * f.leastDepth * std::sqrt(Real(0.5)))) refuseTunnelling(a, dt);
+	if (!first && dt > 0 && !(f.odometer.fastest * dt <= f.mostAStep * f.leastDepth * std::sqrt(Real(0.5)))) refuseTunnelling(a, dt);
 }
 
 } // namespace blocks

@@ -9,10 +9,6 @@ namespace blocks {
 /// Whether the scene has general contact. Without it broken joints keep their places.
 void setGeneralContact(BlockAssembly&, bool);
 
-/// Two blocks that near each other may do so by this share of the depth at which a contact is lost, in a step. A contact then acts in four steps
-/// at least before it is lost, and squares that meet at this speed keep their energy within 1 to 2 %.
-constexpr Real mostAStep = 0.25;
-
 /// Before forces: releases broken joints to free contacts and looks for neighbours, where something moved far or broke. Serial. Refuses blocks that come so
 /// fast that they might be past each other before their contact acts; dt: of the step that led here, and of the next one [s]. With `account`, a.state.accounts
 /// gets what joints held and the free contacts that took their places do not.

@@ -64,6 +64,15 @@ std::vector<Real> nodalStiffness(const BlockAssembly& a, std::vector<Real> stiff
 	return stiffness;
 }
 
+std::vector<Real> touchStiffness(const BlockAssembly& a, const std::vector<Real>& stiffness)
+{
+	std::vector<Real>       sum      = stiffness;
+	const std::vector<Real> contacts = contactStiffness(a);
+	for (int n = 0; n < a.nodeCount(); ++n)
+		sum[n] += 3 * contacts[n];
+	return sum;
+}
+
 Real stableTimeStep(const BlockAssembly& a, const std::vector<Real>& stiffness, const std::vector<Real>& inertia)
 {
 	std::vector<char> driven(2 * a.nodeCount(), false); // a platen under a force moves freely, as one

@@ -18,6 +18,11 @@ std::vector<Real> nodalStiffness(const BlockAssembly&, std::vector<Real> ofZones
 /// min 2 sqrt(m / K) over the grid points that can move, for the true masses or the scaled ones [s].
 Real stableTimeStep(const BlockAssembly&, const std::vector<Real>& stiffness, const std::vector<Real>& inertia);
 
+/// Stiffness for the step of a scene in which blocks collide: springs of free contacts count four times. A spring that is there from the start keeps
+/// its energy up to the limit of the step; one that comes and goes within a step costs or gives a share of k dt^2 / m, up to 9 % at 0.7 of the limit.
+/// At half of that, in which four times the stiffness results, it is below 1 %.
+std::vector<Real> touchStiffness(const BlockAssembly&, const std::vector<Real>& stiffness);
+
 /// inertia = K dt^2 / (4 safety^2): every grid point at the same fraction of its limit. For quasi-static runs.
 void scaleInertia(BlockAssembly&, const std::vector<Real>& stiffness, Real dt, Real safety);
 
