@@ -51,7 +51,7 @@ def test_aPauseThatComesTooLateIsAskedForAgain():
 
 @pytest.mark.parametrize('begins', [True, False])
 def test_anInterruptWhileTheRunStarts(begins, monkeypatch):
-	"""An interrupt may come in before the thread of the run begins, or just behind: when it is passed on nothing runs any more, and nothing begins later."""
+	"""An interrupt may come in before the thread of the run begins, or just behind. When it is passed on, nothing runs any more, nor begins later."""
 	O.reset()
 	O.engines, waiting, start = [], [], threading.Thread.start
 

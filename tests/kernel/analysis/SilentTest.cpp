@@ -116,7 +116,7 @@ Real offBalance(Real share, Real phase, Real safety, Real kn = 1e11, Real* first
 			a.state.displacement[n].x() -= 0.05 - gap;
 		return a;
 	};
-	auto          stepOf   = [&](const BlockAssembly& a) { return safety * stableTimeStep(a, touchStiffness(a, nodalStiffness(a)), a.state.inertia); };
+	auto          stepOf = [&](const BlockAssembly& a) { return safety * stableTimeStep(a, touchStiffness(a, nodalStiffness(a)), a.state.inertia); };
 	const Real    way = share * 0.025, v = way / stepOf(nearEach(0.05)); // 0.025: area by outline
 	BlockAssembly a = nearEach((3 - phase) * way);
 	for (int n = a.mesh.firstNode[1]; n < a.nodeCount(); ++n)
