@@ -14,6 +14,8 @@ joints=calibrated takes joints that soften, with `strengths` and `stiffnesses` t
 bricks and mortar (lastingShare: share of an opening that stays); the run then goes on until the stress has fallen to 20 % of its peak, and
 `postpeak_energy` is stress times shortening from the peak to there. units=plain makes each brick one block that cannot crack.
 cells=triangles fills the layers with triangular blocks; edgeSegments=n makes n joints of every edge, so that contact points lie inside edges too.
+strengths, stiffnesses, unitStrengths, mortarStrengths (factors on those of the tables), unitFriction, mortarFriction [degrees], unitYoung and
+mortarYoung [Pa] show what governs the result.
 halfRate=true repeats every run at half the loading rate and reports the change of the strength.
 solver=events goes from failure to failure (BlockModel.follow) as long as displacements are small, and in time steps from there on. It says where that was.
 """
@@ -39,8 +41,8 @@ from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
 brickHeight, mortarHeight, bricks, thickness = 0.05, 0.01, 5, 0.285 # [m]
 height = bricks * brickHeight + (bricks - 1) * mortarHeight
-brick = dict(young=20e9, poisson=0.2, density=2000) # Table 7
-mortar = dict(young=5.8e9, poisson=0.2, density=2000)
+brick, mortar = dict(poisson=0.2, density=2000), dict(poisson=0.2, density=2000) # Table 7
+moduli = scenario.usualParameters(unitYoung=20e9, mortarYoung=5.8e9)
 mortarJoint = dict(kn=348e9, ks=174e9, frictionAngle=radians(15), cohesion=1.4e6, cohesionResidual=0.28e6, tension=0.7e6) # Table 8, also brick to mortar
 brickJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, cohesionResidual=3e6, tension=7.5e6) # Table 9
 sets = {
@@ -61,8 +63,9 @@ p = scenario.parameters({
 		0.003, 'size of the Voronoi cells of mortar', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than a mortar joint')
 	), 'residualFriction': Key('zero', 'friction of broken joints: none, or as before',
 					rule=('zero', 'kept')), 'width': Key(0.285, 'width of the prism', 'm', scenario.positive),
-	'joints': Key('paper', 'brittle joints of Tables 8 and 9, or joints that soften', rule=tuple(sets)), **softening.jointKeys(*sets['paper']),
-	**softening.scatterKeys, **scenario.usualParameters(halfRate=False, vtk=True, frames=10, movie='none', sheets=True)
+	'joints': Key('paper', 'brittle joints of Tables 8 and 9, or joints that soften',
+			rule=tuple(sets)), **softening.jointKeys(*sets['paper'], 'unitStrengths', 'mortarStrengths', 'unitFriction', 'mortarFriction'),
+	**softening.scatterKeys, **moduli, **scenario.usualParameters(halfRate=False, vtk=True, frames=10, movie='none', sheets=True)
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'compression: solver=events has no rate: servo and halfRate must be false')
 if p.residualFriction == 'zero':
@@ -72,8 +75,9 @@ for key, value in sets[p.joints].items():
 softening.takeScatter(p)
 softens = p.GfI > 0
 scenario.require(p.solver == 'steps' or not softens, 'compression: solver=events knows brittle joints only, got GfI=%g' % p.GfI)
-for joint in mortarJoint, brickJoint:
-	joint.update({name: p.strengths * joint[name] for name in ('cohesion', 'cohesionResidual', 'tension')})
+for joint, strengths, friction in (mortarJoint, p.mortarStrengths, p.mortarFriction), (brickJoint, p.unitStrengths, p.unitFriction):
+	if friction != -1: joint['frictionAngle'] = radians(friction)
+	joint.update({name: p.strengths * (1 if strengths == -1 else strengths) * joint[name] for name in ('cohesion', 'cohesionResidual', 'tension')})
 	joint.update({name: p.stiffnesses * joint[name] for name in ('kn', 'ks')}, GfI=p.GfI, GfII=p.GfII, lastingShare=p.lastingShare)
 area, last = p.width * thickness, 0.2 if softens else 0.5 # a run ends at this share of the strength
 
@@ -81,8 +85,8 @@ area, last = p.width * thickness, 0.2 if softens else 0.5 # a run ends at this s
 def build(seed):
 	"""The prism in the scene; every layer has a seed of its own."""
 	O.reset()
-	O.materials.append(BlockMat(label='unit', **brick))
-	O.materials.append(BlockMat(label='mortar', **mortar))
+	O.materials.append(BlockMat(label='unit', young=p.unitYoung, **brick))
+	O.materials.append(BlockMat(label='mortar', young=p.mortarYoung, **mortar))
 	model, y = BlockModel(thickness=thickness, planeStress=p.plane == 'stress'), 0
 	for layer in range(2 * bricks - 1):
 		label, size, thick = ('mortar', p.mortarSize, mortarHeight) if layer % 2 else ('unit', p.unitSize, brickHeight)

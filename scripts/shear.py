@@ -42,8 +42,8 @@ from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 # ---- parameters (SI)
 
 length, brickHeight, thickness, mortarHeight = 0.2, 0.05, 0.05, 0.015 # [m]
-brick = dict(young=16.7e9, poisson=0.2, density=1900) # Table 4
-mortar = dict(young=2.974e9, poisson=0.2, density=3250)
+brick, mortar = dict(poisson=0.2, density=1900), dict(poisson=0.2, density=3250) # Table 4
+moduli = scenario.usualParameters(unitYoung=16.7e9, mortarYoung=2.974e9)
 residualFriction = degrees(atan(experiments.residualFriction))
 shared = dict(kn=400e9, ks=200e9, dilation=0.) # Table 5
 measured = {name: softening.measured[name] for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII', 'lastingShare')}
@@ -65,8 +65,9 @@ p = scenario.parameters({
 		sigma=0.5e6, stroke=1e-3, approach=0.2, solver='steps', jump=True, servo=False, units='plain', cells='voronoi', edgeSegments=1
 	), 'afterPeak': Key(True, 'go on behind the peak, to the residual stress'),
 	'size': Key(3.5e-3, 'size of the Voronoi cells', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer')),
-	'joints': Key('paper', 'brittle joints of Table 5, or joints that soften', rule=tuple(sets)), **softening.jointKeys(*sets['paper']),
-	**softening.scatterKeys, **scenario.usualParameters(brickZone=8e-3, merge=0.1, halfRate=False, vtk=True, frames=10, movie='none', sheets=True)
+	'joints': Key('paper', 'brittle joints of Table 5, or joints that soften',
+			rule=tuple(sets)), **softening.jointKeys(*sets['paper']), **softening.scatterKeys, **moduli,
+	**scenario.usualParameters(brickZone=8e-3, merge=0.1, halfRate=False, vtk=True, frames=10, movie='none', sheets=True)
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'shear: solver=events has no rate: servo and halfRate must be false')
 scenario.require(p.afterPeak or p.solver == 'events', 'shear: afterPeak=false needs solver=events, got solver=steps')
@@ -86,8 +87,8 @@ peakExpected, residualExpected = experiments.peakShearStress(p.sigma), experimen
 def build(seed, dt):
 	"""The couplet in the scene."""
 	O.reset()
-	O.materials.append(BlockMat(label='unit', **brick))
-	O.materials.append(BlockMat(label='mortar', **mortar))
+	O.materials.append(BlockMat(label='unit', young=p.unitYoung, **brick))
+	O.materials.append(BlockMat(label='mortar', young=p.mortarYoung, **mortar))
 	model = BlockModel(thickness=thickness, planeStress=p.plane == 'stress')
 	options = dict(lloyd=p.lloyd, seed=seed, mergeFraction=p.merge, edgeSegments=p.edgeSegments)
 	addCells(model, p.cells, rectangle(0, low, length, high), 'mortar', size=p.size, sizeMeaning=p.sizeMeaning, **options)

@@ -17,8 +17,8 @@ Two clay bricks, 100 x 50 x 50 mm, and a mortar joint of 15 mm made of Voronoi b
 With them, the case only says the size, and the run goes on until the stress has fallen to 1 % of its peak (tail=), or to an opening of 0.9 mm, so that
 `fracture_energy`, work less what is stored and kinetic, is that of the section. alpha is 0.3 then: local damping of rattling blocks is a drag that does not
 vanish with the rate. With 0.8 it took 9 N/m of 28, and held the stress behind the peak up.
-scatter= is the strengths' coefficient of variation, scatterLength= [m] their field's correlation length; tension, cohesion, GfI, GfII [SI] and lastingShare
-show what governs the result.
+scatter= is the strengths' coefficient of variation, scatterLength= [m] their field's correlation length; kn, ks, tension, cohesion, GfI, GfII [SI],
+friction, dilation [degrees], lastingShare, unitYoung and mortarYoung [Pa] show what governs the result.
 
 Size means the mean edge, as in UDEC, unless sizeMeaning=sqrtArea. The stiffness across the layer should be that of the series
 1/K = h/E' + h/(0.92 kn s) + 1/kn, with s = sqrt(mean area) = 1.61 edges and E' = E/(1 - nu^2) in plane strain.
@@ -51,8 +51,8 @@ from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 # ---- parameters (SI)
 
 length, brickHeight, thickness, mortarHeight = 0.1, 0.05, 0.05, 0.015 # [m]
-brick = dict(young=16.7e9, poisson=0.2, density=1900) # Table 1
-mortar = dict(young=2.974e9, poisson=0.2, density=1250)
+brick, mortar = dict(poisson=0.2, density=1900), dict(poisson=0.2, density=1250) # Table 1
+moduli = scenario.usualParameters(unitYoung=16.7e9, mortarYoung=2.974e9)
 table2 = dict(kn=400e9, ks=200e9, frictionAngle=radians(38), cohesion=0.75e6, tension=0.75e6, dilationAngle=radians(4))
 table3 = dict(table2, cohesion=0.60e6, tension=0.60e6)
 brickJoint = dict(
@@ -75,12 +75,12 @@ p = scenario.parameters({
 	), 'size': Key(0.0, 'size of the Voronoi cells; 0: of the case', 'm', (lambda s: 0 <= s < mortarHeight, 'must be smaller than the mortar layer')),
 	'case': Key('TT2', 'properties of brittle joints, see above',
 			rule=tuple(cases)), 'joints': Key('paper', 'brittle joints of the case, or joints that soften', rule=('paper', *softeningSets)),
-	**softening.jointKeys('tension', 'cohesion', 'GfI', 'GfII', 'lastingShare'), 'alpha': Key(
+	**softening.jointKeys('kn', 'ks', 'tension', 'cohesion', 'friction', 'dilation', 'GfI', 'GfII', 'lastingShare'), 'alpha': Key(
 		-1.0, 'coefficient of local damping; -1: 0.8, or 0.3 where joints soften', rule=(lambda a: a == -1 or 0 <= a < 1, 'must lie in [0, 1)')
 	), 'steps': Key(
 		0, 'time steps for the first 0.03 mm; 0: 40000, or 10000 where joints soften', rule=(lambda n: n == 0 or n >= 1000, 'must be at least 1000')
 	), 'tail': Key(0.01, 'share of the peak at which a run with joints that soften ends', rule=(lambda s: 0 < s < 1, 'must lie in (0, 1)')),
-	**softening.scatterKeys, **scenario.usualParameters(halfRate=False, vtk=True, frames=10, movie='none', sheets=True)
+	**softening.scatterKeys, **moduli, **scenario.usualParameters(halfRate=False, vtk=True, frames=10, movie='none', sheets=True)
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'tension: solver=events has no rate: servo and halfRate must be false')
 scenario.require(p.solver == 'steps' or p.joints == 'paper', 'tension: solver=events knows brittle joints only, got joints=' + p.joints)
@@ -89,7 +89,8 @@ softens = p.joints != 'paper'
 if softens:
 	mortarJoint = unitJoint = dict(softeningSets[p.joints])
 	expectedPeak, source = experiments.tensileStrength
-given = {key: getattr(p, key) for key in ('tension', 'cohesion', 'GfI', 'GfII', 'lastingShare') if getattr(p, key) != -1}
+given = {key: getattr(p, key) for key in ('kn', 'ks', 'tension', 'cohesion', 'GfI', 'GfII', 'lastingShare') if getattr(p, key) != -1}
+given.update({name: radians(getattr(p, key)) for key, name in (('friction', 'frictionAngle'), ('dilation', 'dilationAngle')) if getattr(p, key) != -1})
 mortarJoint, unitJoint = {**mortarJoint, **given}, {**unitJoint, **given}
 softening.takeScatter(p, scatterOfSets.get(p.joints, 0.0))
 p.size = p.size or caseSize
@@ -101,8 +102,8 @@ area, duration = length * thickness, stroke / velocity
 def build(seed):
 	"""The couplet in the scene."""
 	O.reset()
-	O.materials.append(BlockMat(label='unit', **brick))
-	O.materials.append(BlockMat(label='mortar', **mortar))
+	O.materials.append(BlockMat(label='unit', young=p.unitYoung, **brick))
+	O.materials.append(BlockMat(label='mortar', young=p.mortarYoung, **mortar))
 	low, high = brickHeight, brickHeight + mortarHeight
 	model = BlockModel(thickness=thickness, planeStress=p.plane == 'stress')
 	options = dict(lloyd=p.lloyd, seed=seed, mergeFraction=p.merge, edgeSegments=p.edgeSegments)
@@ -179,7 +180,7 @@ def leap(model, steps, record):
 def seriesStiffness():
 	"""Stiffness across the layer per area [Pa/m]."""
 	side = p.size * (experiments.edgeToSide if p.sizeMeaning == 'edge' else 1)
-	return experiments.seriesStiffness(mortarHeight, mortar['young'], mortar['poisson'], unitJoint['kn'], side, p.plane == 'strain')
+	return experiments.seriesStiffness(mortarHeight, p.mortarYoung, mortar['poisson'], unitJoint['kn'], side, p.plane == 'strain')
 
 
 def addEnergies(run, model, cracks):

@@ -31,6 +31,10 @@ _keys = {
 	"dilation": ("dilation angle", "degrees", _angle),
 	"strengths": ("factor on all strengths", "", _positive),
 	"stiffnesses": ("factor on all stiffnesses of joints", "", _positive),
+	"unitStrengths": ("factor on the strengths of joints within units", "", _positive),
+	"mortarStrengths": ("factor on the strengths of joints of the mortar", "", _positive),
+	"unitFriction": ("friction angle of joints within units", "degrees", _angle),
+	"mortarFriction": ("friction angle of joints of the mortar", "degrees", _angle),
 	"GfI": ("fracture energy in tension", "N/m", _notNegative),
 	"GfII": ("fracture energy in shear", "N/m", _notNegative),
 	"lastingShare": ("share of a softened joint's opening that stays when it closes", "", _share),
@@ -38,9 +42,8 @@ _keys = {
 
 
 def jointKeys(*names):
-	"""Scenario keys for properties of the joints, which stand in place of those of the chosen set: `kn ks cohesion tension friction
-	residualFriction dilation
-	strengths stiffnesses GfI GfII lastingShare`."""
+	"""Scenario keys for properties of the joints, which stand in place of those of the chosen set: `kn ks cohesion tension friction residualFriction
+	dilation strengths stiffnesses unitStrengths mortarStrengths unitFriction mortarFriction GfI GfII lastingShare`."""
 	return {name: scenario.Key(-1.0, _keys[name][0], *_keys[name][1:]) for name in names}
 
 

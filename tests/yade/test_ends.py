@@ -134,3 +134,28 @@ def test_littleRoomOnTheDisk(tmp_path, mounted):
 	assert 'No space left on device' in text.strip().splitlines()[-1]
 	assert result(tmp_path, 'tension')['complete'] is True and not [name for name in os.listdir(tmp_path / 'out/tension') if name.endswith('.part')]
 	assert {row.split(',')[0] for row in (tmp_path / 'out/tension/curve.csv').read_text().splitlines()} == {'seed', '1', '2'}
+
+
+# ---- keys
+
+
+def test_everyKeyOfMaterialsActs(tmp_path):
+	"""Stiffer joints and mortar stiffen the layer, soft bricks do not stiffen it; strengths raise first crack and peak."""
+	def measured(*words):
+		folder = tmp_path / '-'.join(words or ['as-it-is'])
+		folder.mkdir()
+		code, text = Process(folder, 'tension', 'case=TT3', 'solver=events', 'vtk=false', 'sheets=false', *words).wait()
+		assert code == 0, text
+		return {q['name']: q['measured'] for q in result(folder, 'tension')['quantities']}
+
+	stiffness, first, peak = 'joint_stiffness', 'first_crack_stress', 'peak_tensile_stress'
+	usual = measured()
+	for words in ['kn=800e9'], ['mortarYoung=6e9']:
+		assert measured(*words)[stiffness] > 1.1 * usual[stiffness], words
+	soft = measured('unitYoung=8e9')
+	assert soft[stiffness] < 1.01 * usual[stiffness] and soft[first] != usual[first]
+	weak = measured('cohesion=0.25e6') # shear comes first, and under tension friction weakens it
+	assert weak[first] < usual[first] and measured('cohesion=0.25e6', 'friction=5', 'dilation=0')[first] > 1.01 * weak[first]
+	assert measured('ks=300e9')[first] != usual[first]
+	strong = measured('tension=0.9e6', 'cohesion=0.9e6')
+	assert strong[first] == pytest.approx(1.5 * usual[first], rel=1e-6) and strong[peak] > 1.3 * usual[peak]
