@@ -187,8 +187,11 @@ def blockPoints(mode, case, lines):
 	way = {"steps": slow[mode][experiment] // (1 if solver else 2)}
 	yield Point(case, "blocks", "slow" if solver else "half as slow", inWords(way), experiment, {**base, **way}, reference({}))
 	if solver: # behind the peak of shear there are steps, not quite so slow
-		way = {**solver, "steps": slow[mode][experiment] // 4} if experiment == "shear" else solver
-		yield Point(case, "blocks", "solver", inWords(way), experiment, {**base, **way}, reference({}))
+		if experiment == "shear":
+			way = {**solver, "steps": slow[mode][experiment] // 4}
+			yield Point(case, "blocks", "solver", inWords(way), experiment, {**base, **way}, reference({}))
+			solver = {**solver, "afterPeak": False}
+		yield Point(case, "blocks", "solver", inWords(solver), experiment, {**base, **solver}, reference({}))
 
 
 def yadePoints(mode, case, model, known):
@@ -237,7 +240,8 @@ def inWords(settings):
 		"steps": lambda n: f"{n / 1000:g}k steps", "size": lambda x: f"{1e3 * x:g} mm", "unitSize": lambda x: f"{1e3 * x:g}",
 		"joints": lambda which: f"{which} joints", "tail": lambda x: f"to {100 * x:g} %", "mortarSize": lambda x: f"/ {1e3 * x:g} mm",
 		"radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}", "units": lambda x: f"{x} units", "solver": lambda x: x,
-		"damping": lambda x: f"{x} damping", "servo": lambda on: "servo" if on else "no servo", "jump": lambda on: "jump" if on else "no jump"
+		"damping": lambda x: f"{x} damping", "servo": lambda on: "servo" if on else "no servo", "afterPeak": lambda on: "on behind the peak"
+		if on else "to the peak", "jump": lambda on: "jump" if on else "no jump"
 	}
 	return " ".join(words.get(key, lambda x: f"{key} {x}")(value) for key, value in settings.items())
 

@@ -18,8 +18,8 @@ GfII [N/m] and lastingShare show what governs the result; what is not given is t
 units=voronoi makes bricks of blocks, with edges of brickZone, that could crack; plain ones are one elastic block with zones of that size.
 cells=triangles fills the layers with triangular blocks; edgeSegments=n makes n joints of every edge, so that contact points lie inside edges too.
 halfRate=true repeats every run at half the loading rate and reports the change of the peak.
-solver=events goes from failure to failure up to the peak (BlockModel.follow) and in time steps from there on; afterPeak=false ends at the peak,
-without a residual.
+solver=events goes from failure to failure up to the peak (BlockModel.follow), which is the strength, and in time steps from there on; they may rise above
+it where `steps` are few. afterPeak=false ends with the path, without a residual.
 """
 from math import atan, degrees, radians
 
@@ -118,7 +118,7 @@ def shear(stage, seed, steps):
 	film = Film(model, p.frames if p.vtk or p.movie != 'none' else 0)
 	record = Recorder(
 		displacement=slip, stress=lambda: model.groupForce('shear') / area, uplift=uplift, broken=cracks.look,
-		yielded=lambda: np.count_nonzero(model.pointStatus), unbalanced=lambda: model.unbalancedRatio(floor=floor)
+		yielded=lambda: np.count_nonzero(model.pointStatus), unbalanced=lambda: model.unbalancedRatio(floor=floor), exact=lambda: 0
 	)
 	if not stage.model: press(model, dt, floor)
 	approach = None if p.servo else loading.Approach(model, 'shear', p.approach, growth=1.03 if softens else 1.1) # one of them sets the speed
@@ -134,13 +134,14 @@ def shear(stage, seed, steps):
 		if not stage.model:
 			if p.solver == 'events':
 				path = loading.follow(model, 'shear', stage.label, gauges=[slip, uplift], peak=True, drop=0.5, displacement=p.stroke)
-				up = slice(path['force'].argmax() + 1)
+				top = path['force'].argmax()
+				up = slice(top + 1 if p.afterPeak else None) # the model is at the peak again; steps go on from there
 				record.take(
 					displacement=path['gauges'][0][up], stress=path['force'][up] / area, uplift=path['gauges'][1][up],
-					broken=path['cracked'][up], yielded=path['cracked'][up], unbalanced=path['residual']
+					broken=path['cracked'][up], yielded=path['cracked'][up], unbalanced=path['residual'], exact=1
 				)
 				cracks.began(path['crackPoint'])
-				film.look(1, record.last.stress, O.time)
+				film.look(1, path['force'][top] / area, O.time)
 				if not p.afterPeak: return model, record, cracks, film
 			record()
 			if p.solver == 'steps' and p.jump:
@@ -173,7 +174,9 @@ with Session(p) as session:
 				with run.stepping():
 					model, record, cracks, film = shear(stage, seed, p.steps)
 				displacement, stress, uplift, broken = (record[name] for name in ('displacement', 'stress', 'uplift', 'broken'))
-				strength, peak = curves.peak(displacement, stress)
+				exact = record['exact'] > 0 # what faster steps reach behind the path is no strength
+				path = exact if exact.any() else slice(None)
+				strength, peak = curves.peak(displacement[path], stress[path])
 				run.add('peak_shear_stress', 'MPa', strength / 1e6, *peakExpected)
 				if p.afterPeak: run.add('residual_shear_stress', 'MPa', curves.residual(displacement, stress) / 1e6, *residualExpected)
 				run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
@@ -188,7 +191,8 @@ with Session(p) as session:
 					run.add('crack_length', '1', (cracks.areas * model.pointDamage).sum() / area) # by damage, over the section
 					for cause, energy in energies.dissipated().items():
 						run.add('dissipated_' + cause, 'N/m', energy / area)
-				run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, uplift_mm=1e3 * uplift, broken=broken)
+				ofPath = {'exact': record['exact']} if exact.any() else {}
+				run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, uplift_mm=1e3 * uplift, broken=broken, **ofPath)
 				run.model(model, steps=O.iter, **engineCosts(model, O.iter))
 				run.quality(
 					unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max(), energy_error=energies.error() if softens else None

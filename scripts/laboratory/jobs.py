@@ -65,8 +65,7 @@ class Jobs:
 
 	def record(self, job):
 		"""What the job left: {"job", "reported", "units", "expected", "cost", "quality", "curve", "columns"} or {"job", "failed": reason};
-		None if it has
-		not been run with this code."""
+		None if it has not been run with this code."""
 		path = self.path(job)
 		return json.loads(path.read_text()) if path.exists() else None
 
@@ -76,8 +75,16 @@ class Jobs:
 		if record is None or "failed" in record:
 			return record
 		x, y = record.pop("curve")
-		if job.settings.get("solver") == "events": x, y = curves.driven(x, y) # what a machine would have seen
-		measures = {name: value for name, (value, unit) in curves.measure(job.settings.get("experiment", job.script), x, y).items()}
+		experiment = job.settings.get("experiment", job.script)
+		of = lambda x, y: {name: value for name, (value, unit) in curves.measure(experiment, x, y).items()}
+		if job.settings.get("solver") == "events": # what a machine would have seen; behind the exact path only what it leaves is measured
+			exact = record.get("exact") or len(x)
+			measures = {
+				**of(*curves.driven(x, y)),
+				**{k: v for k, v in of(*curves.driven(x[:exact], y[:exact])).items() if not k.startswith("residual")}
+			}
+			if not job.settings.get("afterPeak", True): measures.pop("residual_shear_stress", None)
+		else: measures = of(x, y)
 		lacking = [name for name, value in measures.items() if math.isnan(value)]
 		return {**record, "failed": "the curve has no " + ", no ".join(lacking)} if lacking else {**record, "measures": measures}
 
@@ -209,6 +216,7 @@ def _whatCounts(outcome):
 	if len(names) > 2:
 		kept["columns"] = [names[1], "stress_MPa" if "stress_MPa" in names else names[2]]
 		kept["curve"] = [curve[name] for name in kept["columns"]]
+		if "exact" in names: kept["exact"] = int(sum(curve["exact"])) # rows of the path from event to event, the first ones
 	return kept
 
 

@@ -76,12 +76,12 @@ def summarise(case, model, knob, label, names, results, truths, references, isRe
 	references: results of the reference, by seed."""
 	good = {seed: result for seed, result in results.items() if result and "failed" not in result}
 	reasons = sorted({result["failed"] for result in results.values() if result and "failed" in result})
-	measured = {name: [result["measures"][name] for result in good.values()] for name in names}
+	measured = {name: [result["measures"][name] for result in good.values() if name in result["measures"]] for name in names}
 	mean = lambda values: (float(np.mean(values)), float(np.std(values, ddof=1)) if len(values) > 1 else math.nan) if values else (math.nan, math.nan)
 
 	def against(name):
 		pairs = [(result["measures"][name], references[seed]["measures"][name]) for seed, result in good.items()
-				if references.get(seed) and "failed" not in references[seed]]
+				if references.get(seed) and "failed" not in references[seed] and name in result["measures"]]
 		return errorOf(*zip(*pairs)) if pairs else None
 
 	missing = sum(result is None for result in results.values())

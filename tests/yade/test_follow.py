@@ -156,10 +156,23 @@ def test_goes_on_in_time_steps_behind_the_peak(tmp_path):
 	run = runYade(scripts / 'shear.py', 'size=7e-3', 'solver=events', 'stroke=0.3e-3', 'steps=3000', 'vtk=false', cwd=tmp_path)
 	assert run.returncode == 0, run.stderr
 	curve = np.genfromtxt(tmp_path / 'out' / 'shear' / 'curve.csv', delimiter=',', names=True)
-	stress, top = curve['stress_MPa'], curve['stress_MPa'].argmax()
-	assert len(stress) > top + 10
+	stress, top = curve['stress_MPa'], np.flatnonzero(curve['exact'])[-1]
+	assert stress[top] == stress[:top + 1].max() and len(stress) > top + 10
 	assert stress[top + 1] == pytest.approx(stress[top], rel=0.01) # what small displacement left out
 	assert 0.5 * 0.5 < stress[-1] < 0.8 * stress[top] # tan 36 degrees x 0.5, more or less
+
+
+def test_steps_behind_the_path_change_no_strength(tmp_path):
+	"""However fast they are: the strength is that of the path, with and without them."""
+	strengths, highest = [], []
+	for words in ['afterPeak=false'], ['steps=1000']:
+		run = runYade(scripts / 'shear.py', 'size=7e-3', 'solver=events', 'stroke=0.3e-3', 'vtk=false', 'sheets=false', *words, cwd=tmp_path)
+		assert run.returncode == 0 and 'no peak' not in run.stdout, run.stdout + run.stderr
+		found = json.loads((tmp_path / 'out' / 'shear' / 'result.json').read_text())['quantities']
+		strengths.append(next(q['measured'] for q in found if q['name'] == 'peak_shear_stress'))
+		highest.append(np.genfromtxt(tmp_path / 'out' / 'shear' / 'curve.csv', delimiter=',', names=True)['stress_MPa'].max())
+	assert strengths[0] == pytest.approx(strengths[1], rel=1e-9) and strengths[0] == pytest.approx(highest[0], rel=1e-6)
+	assert highest[1] > 1.02 * strengths[1] # or the test would show nothing
 
 
 def test_compression_says_where_events_end(tmp_path):
