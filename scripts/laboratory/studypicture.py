@@ -1,5 +1,7 @@
 # yade-blocks, GPL-2.0-or-later
 """Pictures of studies: bands of curves, indices as bars, profiles of parameters."""
+import math
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -34,9 +36,14 @@ def drawEnsemble(path, bands, rows, title):
 
 def drawSensitivity(path, names, keys, screening, indices, title):
 	"""Above the effect of each key alone, from its lower to its upper bound; below first-order and total indices with their intervals."""
-	figure, axes = plt.subplots(2, len(names), figsize=(max(5, 3.5 * len(names)), 7), squeeze=False)
-	for column, name in enumerate(names):
-		upper, lower = axes[0, column], axes[1, column]
+	wide = min(len(names), 4) # quantities side by side; the others stand below
+	high = math.ceil(len(names) / wide)
+	figure, axes = plt.subplots(2 * high, wide, figsize=(max(5, 3.5 * wide), 1.6 + (1 + 0.4 * len(keys)) * 2 * high), squeeze=False)
+	for spare in range(len(names), high * wide):
+		for below in range(2):
+			axes[2 * (spare // wide) + below, spare % wide].axis("off")
+	for number, name in enumerate(names):
+		upper, lower = (axes[2 * (number // wide) + below, number % wide] for below in range(2))
 		effects = [screening[name].get(key, {"effect": np.nan, "error": np.nan}) for key in keys]
 		upper.barh(range(len(keys)), [100 * e["effect"] for e in effects], xerr=[100 * e["error"] for e in effects], color="0.6")
 		upper.set_yticks(range(len(keys)), keys), upper.set_title(name, fontsize=9)
@@ -74,6 +81,6 @@ def drawCalibration(path, profiles, targets, title):
 
 def _save(figure, path, title):
 	figure.suptitle(title)
-	figure.tight_layout()
+	figure.tight_layout(rect=(0, 0, 1, 1 - 0.35 / figure.get_figheight())) # below the title
 	figure.savefig(path, dpi=120)
 	plt.close(figure)
