@@ -9,7 +9,7 @@ NAME-MODE.png (error over CPU seconds, and its reading), NAME-MODE.md (table and
 
 experiment=structures runs the other scenarios, each at three costs, against their expected values: structures.md, .csv and .png. mode=full has it, too.
 
-	mode=quick      less than ten minutes on two idle cores
+	mode=quick      a quarter of an hour on two idle cores
 	mode=full       every knob, all stresses, finer packings: about two hours on two idle cores
 	mode=calibrate  goes on with the calibration of YADE's models (model=NAME: of this one only) from scripts/calibrated.json, and writes it; a report says
 			which calibrations were made with other code, targets, packings or ties than today's
@@ -120,7 +120,7 @@ fullCompression += soft((5000, 10000, 20000), joints="calibrated")
 blocks = {
 	"quick": {
 		"tension": quickTension + specimen("size", 10000, 6e-3), "shear 0.1": steps(6000), "shear 0.5": quickShear, "shear 1.0": steps(6000),
-		"compression": steps(5000, 10000)
+		"compression": steps(5000, 10000) + soft((5000, ), joints="calibrated")
 	}, "full": {"tension": fullTension, **dict.fromkeys(("shear 0.1", "shear 0.5", "shear 1.0"), fullShear), "compression": fullCompression}
 }
 # Multiples of the steps and radius they were calibrated with (slow: of the references' steps where they are not 4; None: no references); packings: at most
