@@ -190,8 +190,8 @@ def blockPoints(mode, case, lines):
 		if experiment == "shear":
 			way = {**solver, "steps": slow[mode][experiment] // 4}
 			yield Point(case, "blocks", "solver", inWords(way), experiment, {**base, **way}, reference({}))
-			solver = {**solver, "afterPeak": False}
-		yield Point(case, "blocks", "solver", inWords(solver), experiment, {**base, **solver}, reference({}))
+		alone = {**solver, "afterPeak": False} if experiment == "shear" else solver
+		yield Point(case, "blocks", "solver", inWords(alone), experiment, {**base, **alone}, reference({}))
 
 
 def yadePoints(mode, case, model, known):
