@@ -78,7 +78,7 @@ class Jobs:
 		experiment = job.settings.get("experiment", job.script)
 		of = lambda x, y: {name: value for name, (value, unit) in curves.measure(experiment, x, y).items()}
 		if job.settings.get("solver") == "events": # what a machine would have seen; behind the exact path only what it leaves is measured
-			exact = record.get("exact") or len(x)
+			exact = 1 + max(range(record.get("exact") or len(x)), key=y.__getitem__) # up to the peak
 			measures = {
 				**of(*curves.driven(x, y)),
 				**{k: v for k, v in of(*curves.driven(x[:exact], y[:exact])).items() if not k.startswith("residual")}
