@@ -178,11 +178,12 @@ namespace {
 
 	void viscous(BlockModel& model, const string& name, const py::object& nodes, const py::object& impedance)
 	{
-		const string     what = "viscous boundary \"" + name + "\": ";
+		const string      what = "viscous boundary \"" + name + "\": ";
 		blocks::Impedance z;
 		if (!impedance.is_none()) {
 			if (py::len(impedance) != 2)
-				throw std::invalid_argument(what + "impedance must be a pair, normal and tangential, got " + std::to_string(py::len(impedance)));
+				throw std::invalid_argument(
+					what + "impedance must be a pair, normal and tangential, got " + std::to_string(py::len(impedance)));
 			z = { py::extract<Real>(impedance[0]), py::extract<Real>(impedance[1]) };
 			for (Real part : { z.normal, z.tangential })
 				blocks::require(part > 0, what + "impedances must be positive and finite [Pa s/m]", part);
@@ -196,15 +197,15 @@ namespace {
 
 	void setIncoming(BlockModel& model, const string& name, const py::object& times, const py::object& velocities)
 	{
-		const string             what     = "viscous boundary \"" + name + "\": ";
-		const int                boundary = blocks::viscousOf(model.assembly, name);
-		const py::object         array = py::import("numpy").attr("asarray")(velocities, "float"), shape = array.attr("shape");
-		const py::object         list  = py::import("numpy").attr("asarray")(times, "float").attr("ravel")().attr("tolist")();
+		const string     what     = "viscous boundary \"" + name + "\": ";
+		const int        boundary = blocks::viscousOf(model.assembly, name);
+		const py::object array = py::import("numpy").attr("asarray")(velocities, "float"), shape = array.attr("shape");
+		const py::object list = py::import("numpy").attr("asarray")(times, "float").attr("ravel")().attr("tolist")();
 		if (py::len(shape) != 2 || py::extract<long>(shape[1])() != 2)
 			throw std::invalid_argument(what + "velocities must have two columns, along x and y");
-		const py::object          rows = array.attr("tolist")();
-		vector<Real>              when;
-		vector<blocks::Vec2>      wave;
+		const py::object     rows = array.attr("tolist")();
+		vector<Real>         when;
+		vector<blocks::Vec2> wave;
 		for (long i = 0; i < py::len(list); ++i)
 			when.push_back(py::extract<Real>(list[i]));
 		for (long i = 0; i < py::len(rows); ++i)
@@ -252,14 +253,14 @@ namespace {
 		const auto list = integers(edges);
 		if (list.empty()) throw std::invalid_argument("BlockModel.stressTraction: no edges were chosen");
 		for (long edge : list)
-			blocks::addInSituTraction(
-				model.assembly, inRange(edge, "BlockModel.stressTraction: an edge"), fieldOf(stress, gradient, level));
+			blocks::addInSituTraction(model.assembly, inRange(edge, "BlockModel.stressTraction: an edge"), fieldOf(stress, gradient, level));
 	}
 
 	/// Bodies go with their blocks, and their interactions with them.
 	void removeBlocks(BlockModel& model, const py::object& blocks)
 	{
-		if (model.firstBody < 0) throw std::runtime_error("BlockModel.remove must come after BlockModel.insert(): leave out blocks that are not to be there");
+		if (model.firstBody < 0)
+			throw std::runtime_error("BlockModel.remove must come after BlockModel.insert(): leave out blocks that are not to be there");
 		vector<int> list;
 		for (long block : integers(blocks))
 			list.push_back(inRange(block, "BlockModel.remove: a block"));
@@ -298,8 +299,10 @@ void defineSupports(PythonModel& c)
 		.def("setIncoming",
 	             &setIncoming,
 	             (arg("name"), arg("times"), arg("velocities")),
-	             "Lets a wave come in through a viscous boundary: its velocities [m/s], shape (times, 2), at ascending times [s]; linear between them, zero "
-	             "outside. The boundary pulls with twice these velocities times the impedance, so that what comes back goes out. An accelerogram of an outcrop "
+	             "Lets a wave come in through a viscous boundary: its velocities [m/s], shape (times, 2), at ascending times [s]; linear between them, "
+	             "zero "
+	             "outside. The boundary pulls with twice these velocities times the impedance, so that what comes back goes out. An accelerogram of an "
+	             "outcrop "
 	             "is twice the incoming wave. Errors: ValueError for no such boundary, times that do not ascend, or shapes that do not fit.")
 		.def("releaseViscous",
 	             &releaseViscous,
@@ -308,7 +311,8 @@ void defineSupports(PythonModel& c)
 		.def("viscousForce",
 	             &viscousForce,
 	             (arg("name")),
-	             "Force (x, y) that a viscous boundary puts on the blocks at their present velocities [N]. Error: ValueError if there is none of this name.")
+	             "Force (x, y) that a viscous boundary puts on the blocks at their present velocities [N]. Error: ValueError if there is none of this "
+	             "name.")
 		.add_property("viscousBoundaries", &viscousNames, "Names of the viscous boundaries.")
 		.add_property(
 			"stiffnessDamping",
@@ -333,7 +337,8 @@ void defineSupports(PythonModel& c)
 		.def("stressTraction",
 	             &stressTraction,
 	             (arg("edges"), arg("stress"), arg("gradient") = Vector3r(0, 0, 0), arg("level") = 0.),
-	             "Adds to boundary edges (indices into edgeNodes), as dead load, what stresses in situ pull there; see setStress(). Error: ValueError for no "
+	             "Adds to boundary edges (indices into edgeNodes), as dead load, what stresses in situ pull there; see setStress(). Error: ValueError for "
+	             "no "
 	             "edges, or one that is not there.");
 	c.def("drive",
 	      &drive,
@@ -347,7 +352,8 @@ void defineSupports(PythonModel& c)
 		.def("remove",
 	             &removeBlocks,
 	             (arg("blocks")),
-	             "Takes deformable blocks (indices) out of a scene between two steps: excavation, stages. Their joints and contacts carry nothing any more, "
+	             "Takes deformable blocks (indices) out of a scene between two steps: excavation, stages. Their joints and contacts carry nothing any "
+	             "more, "
 	             "their bodies and interactions are gone, and indices of all others stay. What they held is 'blockRemoved' in ``O.energy``. All at once: "
 	             "what they carried comes upon their neighbours within a step; take out few at a time, or damp (loading.settle), where joints could "
 	             "break of it. "

@@ -25,8 +25,8 @@ BlockAssembly rock(unsigned seed = 7) { return voronoi(3, 2, 5, 4, stone(), elas
 
 TEST(InSitu, InEquilibriumNothingMoves)
 {
-	// Uniform, and linear with weight: syy = rho g (y - 2), K0 = 0.6, with shear. Residuals are sums of forces of 2e6 Pa x 0.7 m x 0.6 m that round by a few
-	// eps each, of coordinates that do so, too.
+	// Uniform, and linear with weight: syy = rho g (y - 2), K0 = 0.6, with shear. Residuals are sums of forces of 2e6 Pa x 0.7 m x 0.6 m that round by a
+	// few eps each, of coordinates that do so, too.
 	const Real weight = 2000 * 9.81;
 	for (const InSituStress& field :
 	     { InSituStress { { -2e6, -3e6, 0.7e6 }, {}, 0 }, InSituStress { { -0.4e6, -0.2e6, 0.1e6 }, { 0.6 * weight, weight, 0 }, 2 } }) {
@@ -74,7 +74,7 @@ TEST(InSitu, EnergyIsKnown)
 
 TEST(InSitu, ForcesAreTheGradientOfTheEnergyAndTurnWithTheBlocks)
 {
-	BlockAssembly                        a = rock();
+	BlockAssembly a = rock();
 	setInSitu(a, { { -40e6, -90e6, 25e6 }, { 3e6, 5e6, -2e6 }, 0.4 });
 	std::mt19937                         random(2);
 	std::uniform_real_distribution<Real> shift(-2e-3, 2e-3);
@@ -104,7 +104,9 @@ TEST(InSitu, ForcesAreTheGradientOfTheEnergyAndTurnWithTheBlocks)
 	computeForces(a);
 	for (int n = 0; n < a.nodeCount(); ++n) {
 		const Vec2& f = forces[n];
-		EXPECT_LT((a.forces.nodal[n] - Vec2(std::cos(angle) * f.x() - std::sin(angle) * f.y(), std::sin(angle) * f.x() + std::cos(angle) * f.y())).norm(), 1e5 * eps * scale);
+		EXPECT_LT(
+			(a.forces.nodal[n] - Vec2(std::cos(angle) * f.x() - std::sin(angle) * f.y(), std::sin(angle) * f.x() + std::cos(angle) * f.y())).norm(),
+			1e5 * eps * scale);
 	}
 }
 

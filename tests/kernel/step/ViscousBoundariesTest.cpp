@@ -67,7 +67,7 @@ Real comesBack(int zones, int along)
 	}());
 	const Real dt = 0.7 * stableTimeStep(a, nodalStiffness(a), a.state.inertia), c = speedOf(along), middle = 2 * zones, amplitude = 1e-6;
 	for (int n = 0; n < a.nodeCount(); ++n) {
-		const Real y                 = a.mesh.reference[n].y() - middle;
+		const Real y                   = a.mesh.reference[n].y() - middle;
 		a.state.displacement[n][along] = amplitude * packet(y, zones);
 		a.state.velocity[n][along]     = -c * amplitude * packetSlope(y + c * dt / 2, zones); // half a step ago
 	}
@@ -118,15 +118,15 @@ TEST(ViscousBoundaries, AnIncomingWaveIsDoubledAtTheSurface)
 		wave.push_back({ 0.01 * packet(i * span / 600 * c - 1.5 * length, length), 0 });
 	}
 	setIncoming(a, viscousOf(a, "base"), times, wave);
-	Damping   none = damped(Damping::Kind::none);
-	const int top = nodesAt(a, 40).front();
+	Damping   none  = damped(Damping::Kind::none);
+	const int top   = nodesAt(a, 40).front();
 	Real      worst = 0, most = 0, energy = 0;
 	for (int i = 0; i * dt < span + 3 * length / c; ++i) {
 		blocks::computeForces(a, Brittle {}, dt, true);
 		const StepWork w = integrate(a, none, dt, i * dt, true);
 		const Real     t = (i + 0.5) * dt, expected = 2 * 0.01 * packet((t - 40 / c) * c - 1.5 * length, length);
-		worst = std::max(worst, std::abs(a.state.velocity[top].x() - expected));
-		most  = std::max(most, std::abs(expected));
+		worst  = std::max(worst, std::abs(a.state.velocity[top].x() - expected));
+		most   = std::max(most, std::abs(expected));
 		energy = w.kinetic + specimens::storedEnergy(a);
 	}
 	EXPECT_GT(most, 0.018);
@@ -143,8 +143,9 @@ TEST(ViscousBoundaries, AnIncomingWaveIsDoubledAtTheSurface)
 
 TEST(ViscousBoundaries, AccountsBalance)
 {
-	// A lopsided brick in small strain, linear; skew boundaries that meet in a corner, held along x at one grid point, with an incoming wave, loads and every
-	// kind of damping: the balance is exact to rounding, as in Energy.LinearSystemBalancesToRounding, and what left never falls by more than a half step's.
+	// A lopsided brick in small strain, linear; skew boundaries that meet in a corner, held along x at one grid point, with an incoming wave, loads and
+	// every kind of damping: the balance is exact to rounding, as in Energy.LinearSystemBalancesToRounding, and what left never falls by more than a half
+	// step's.
 	for (const auto kind : { Damping::Kind::none, Damping::Kind::local, Damping::Kind::adaptive }) {
 		SCOPED_TRACE(int(kind));
 		BlockAssembly a;
@@ -157,7 +158,7 @@ TEST(ViscousBoundaries, AccountsBalance)
 		addViscous(a, "side", { 1, 2 }, { 3e6, 2e6 });
 		setIncoming(a, 0, { 0, 1e-4, 3e-4, 9e-4 }, { { 0, 0 }, { 0.2, 0.1 }, { -0.1, 0.3 }, { 0, 0.1 } });
 		a.addGroup(driven("along", { 0 }, 0.01));
-		const Real dt = 0.6 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
+		const Real dt      = 0.6 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
 		Damping    damping = damped(kind);
 		Real       booked = 0, pending = 0, first = 0, worst = 0, turnover = 0;
 		for (int i = 0; i < 400; ++i) {
@@ -165,9 +166,9 @@ TEST(ViscousBoundaries, AccountsBalance)
 			const Real     stored = specimens::storedEnergy(a), loads = loadWork(a);
 			const StepWork w = integrate(a, damping, dt, i * dt, true);
 			booked += pending + w.dampingBefore;
-			pending          = w.dampingAfter;
-			const auto& f    = a.state.further;
-			const Real  sum  = stored + w.kinetic + booked + f.viscous - f.incoming - groupWork(a) - loads;
+			pending         = w.dampingAfter;
+			const auto& f   = a.state.further;
+			const Real  sum = stored + w.kinetic + booked + f.viscous - f.incoming - groupWork(a) - loads;
 			if (i == 0) first = sum;
 			worst    = std::max(worst, std::abs(sum - first));
 			turnover = std::max({ turnover, stored, f.viscous, f.incoming });
@@ -220,7 +221,7 @@ TEST(ViscousBoundaries, ResistanceOfASkewEdge)
 	BlockAssembly a = twoBlocks(elasticJoint(1e9, 1e9), 0.7);
 	addViscous(a, "base", { 0, 1 }, { 5, 3 });
 	const Vec2 along = Vec2(1, -0.1).normalized(), across(-along.y(), along.x());
-	const Real half = std::sqrt(1.01) * 0.7 / 2;
+	const Real half  = std::sqrt(1.01) * 0.7 / 2;
 	ASSERT_EQ(a.supports.dashpots.size(), 2u);
 	for (const Dashpot& d : a.supports.dashpots) {
 		EXPECT_LT((d * along - 3 * half * along).norm(), 20 * eps);
@@ -272,24 +273,25 @@ BlockAssembly jointedBar(Real beta)
 
 TEST(StiffnessDamping, FirstModeDecaysAsBetaOmegaHalf)
 {
-	// Zones and joints alike, so that the mode stays a mode: u = e^(-xi omega t) cos(omega t sqrt(1 - xi^2)), xi = beta omega / 2. Steps of 1e-3/omega or less:
-	// the late velocity changes xi by omega dt/2 of itself.
+	// Zones and joints alike, so that the mode stays a mode: u = e^(-xi omega t) cos(omega t sqrt(1 - xi^2)), xi = beta omega / 2. Steps of 1e-3/omega or
+	// less: the late velocity changes xi by omega dt/2 of itself.
 	const Modes m = modes(jointedBar(0), 1e-6);
 	for (int mode : { 0, 1, 2 }) { // bending and stretching of joints and zones
 		SCOPED_TRACE(mode);
 		const Real    omega = m.omega[mode], xi = 0.03, beta = 2 * xi / omega;
-		BlockAssembly a = jointedBar(beta);
+		BlockAssembly a  = jointedBar(beta);
 		const Real    dt = std::min(1e-2 / omega, 0.5 * stableTimeStep(a, nodalStiffness(a), a.state.inertia));
 		for (size_t i = 0; i < m.free.size(); ++i)
 			a.state.displacement[m.free[i] / 2][m.free[i] % 2] = 1e-6 * m.shape(i, mode);
 		auto amplitude = [&] { // along the mode
 			Real sum = 0;
 			for (size_t i = 0; i < m.free.size(); ++i)
-				sum += m.shape(i, mode) * a.state.displacement[m.free[i] / 2][m.free[i] % 2] / a.supports.mobility[m.free[i] / 2][m.free[i] % 2];
+				sum += m.shape(i, mode) * a.state.displacement[m.free[i] / 2][m.free[i] % 2]
+					/ a.supports.mobility[m.free[i] / 2][m.free[i] % 2];
 			return sum;
 		};
 		const Real start = amplitude(), periods = 3;
-		Damping    none = damped(Damping::Kind::none);
+		Damping    none  = damped(Damping::Kind::none);
 		const int  steps = int(std::lround(periods * 2 * M_PI / (omega * std::sqrt(1 - xi * xi)) / dt));
 		for (int i = 0; i < steps; ++i) {
 			computeForces(a);
@@ -334,11 +336,11 @@ TEST(StiffnessDamping, BoundsTheStep)
 TEST(StiffnessDamping, AccountsBalance)
 {
 	// Linear: exact to rounding, see Energy.LinearSystemBalancesToRounding. A group that moves takes part.
-	BlockAssembly a = jointedBar(1e-5);
+	BlockAssembly a          = jointedBar(1e-5);
 	a.state.groups[0].target = 0.02, a.state.groups[0].rampTime = 1e-3;
 	addGravity(a, { 3, -9.81 });
-	const Real dt   = 0.6 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
-	Damping    none = damped(Damping::Kind::none);
+	const Real dt    = 0.6 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
+	Damping    none  = damped(Damping::Kind::none);
 	Real       first = 0, worst = 0, turnover = 0;
 	for (int i = 0; i < 600; ++i) {
 		blocks::computeForces(a, Brittle {}, dt, true);
@@ -356,8 +358,8 @@ TEST(StiffnessDamping, AccountsBalance)
 TEST(StiffnessDamping, RigidMotionIsFree)
 {
 	// Two bonded blocks, strained by 1e-3 and with an open joint, that turn about any point: no force but rounding.
-	BlockAssembly a = twoBlocks(elasticJoint(1e11, 4e10));
-	std::mt19937  random(1);
+	BlockAssembly                        a = twoBlocks(elasticJoint(1e11, 4e10));
+	std::mt19937                         random(1);
 	std::uniform_real_distribution<Real> shift(-1e-3, 1e-3);
 	rotateAbout(a, { 0.3, 0.2 }, 1.1, { 2, -1 });
 	for (int n = 0; n < a.nodeCount(); ++n)
@@ -375,7 +377,7 @@ TEST(StiffnessDamping, RigidMotionIsFree)
 	for (Vec2& v : a.state.velocity)
 		v += 100 * Vec2(shift(random), shift(random));
 	computeForces(a);
-	Vec2 sum = Vec2::Zero();
+	Vec2 sum    = Vec2::Zero();
 	Real moment = 0, most = 0;
 	for (int n = 0; n < a.nodeCount(); ++n)
 		sum += a.forces.rate[n], moment += cross(a.position(n), a.forces.rate[n]), most = std::max(most, a.forces.rate[n].norm());

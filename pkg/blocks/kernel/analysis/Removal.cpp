@@ -19,7 +19,9 @@ namespace {
 		const auto leaves = [&](int node) { return std::binary_search(blocks.begin(), blocks.end(), a.blockOfNode(node)); };
 		for (const MotionGroup& g : a.state.groups)
 			for (int dof : g.dofs)
-				require(!leaves(dof / 2), "motion group \"" + g.name + "\" must be released before its blocks are removed; grid point", dof / 2);
+				require(!leaves(dof / 2),
+				        "motion group \"" + g.name + "\" must be released before its blocks are removed; grid point",
+				        dof / 2);
 		for (const Dashpot& d : a.supports.dashpots)
 			require(!leaves(d.node),
 			        "viscous boundary \"" + a.supports.viscous[d.boundary].name + "\" must be released before its blocks are removed; grid point",
@@ -70,7 +72,7 @@ void removeBlocks(BlockAssembly& a, std::vector<int> blocks)
 		}
 	a.listSides();
 	a.updateMobility();
-	if (a.contacts.started) {
+	if (a.contacts.started || !a.state.contacts.empty()) {
 		sortContacts(a);
 		placeForces(a);
 		++a.contacts.version;

@@ -88,7 +88,8 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 		compared = step;
 	}
 	if (loadsChanged(a))
-		baseline = energy - groupWork(a) - rigidWork(a) - a.state.further.incoming - work - lastExcess; // no work since the last look is known to be theirs
+		baseline = energy - groupWork(a) - rigidWork(a) - a.state.further.incoming - work
+			- lastExcess; // no work since the last look is known to be theirs
 	else
 		baseline += energyOfNewMasses(a);
 	inertia            = a.state.inertia;

@@ -49,7 +49,7 @@ struct Mesh {
 	std::vector<int>  firstNode { 0 }, firstZone { 0 }, firstEdge { 0 }; ///< one more entry than there are blocks
 	std::vector<int>  blockMaterial;
 	std::vector<char> removed; ///< whether a block has been taken out; empty if none has
-	std::vector<char> isFan; ///< whether zone k of the block is (corner k, corner k + 1, last grid point), all corners round
+	std::vector<char> isFan;   ///< whether zone k of the block is (corner k, corner k + 1, last grid point), all corners round
 };
 
 } // namespace blocks

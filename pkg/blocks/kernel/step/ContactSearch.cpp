@@ -273,20 +273,20 @@ namespace {
 	std::vector<std::array<int, 2>> onTheWay(const BlockAssembly& a, const std::vector<int>& some, const std::vector<Vec2>& mean, Real dt)
 	{
 		const std::vector<int> every = presentBlocks(a);
-		auto boxes = [&](const std::vector<int>& blocks, bool ofPoints) {
-			std::vector<BoxOf> list;
-			list.reserve(blocks.size());
-			for (const int& block : blocks) {
-				Box box = ofPoints ? sweptBox(a, block, Vec2::Zero(), dt) : boxOf(a, block);
-				if (!ofPoints) {
-					const Vec2 way = dt * mean[block].cwiseAbs();
-					box            = { box.low - way, box.high + way };
-				}
-				if (!box.low.allFinite() || !box.high.allFinite()) continue; // the watch will tell
-				Real low[] = { box.low.x(), box.low.y() }, high[] = { box.high.x(), box.high.y() };
-				list.emplace_back(low, high, &block);
-			}
-			return list;
+		auto                   boxes = [&](const std::vector<int>& blocks, bool ofPoints) {
+                        std::vector<BoxOf> list;
+                        list.reserve(blocks.size());
+                        for (const int& block : blocks) {
+                                Box box = ofPoints ? sweptBox(a, block, Vec2::Zero(), dt) : boxOf(a, block);
+                                if (!ofPoints) {
+                                        const Vec2 way = dt * mean[block].cwiseAbs();
+                                        box            = { box.low - way, box.high + way };
+                                }
+                                if (!box.low.allFinite() || !box.high.allFinite()) continue; // the watch will tell
+                                Real low[] = { box.low.x(), box.low.y() }, high[] = { box.high.x(), box.high.y() };
+                                list.emplace_back(low, high, &block);
+                        }
+                        return list;
 		};
 		std::vector<BoxOf>              fast = boxes(some, true), all = boxes(every, false);
 		std::vector<std::array<int, 2>> found;
@@ -381,16 +381,16 @@ namespace {
 	std::vector<std::array<int, 2>> newNeighbours(const BlockAssembly& a, const std::vector<int>& moved)
 	{
 		const std::vector<int> every = presentBlocks(a);
-		auto boxes = [&](const std::vector<int>& blocks) {
-			std::vector<BoxOf> list;
-			list.reserve(blocks.size());
-			for (const int& block : blocks) {
-				const Box  box    = boxOf(a, block);
-				const Real margin = 2 * limitOf(a.contacts, block);
-				Real       low[] = { box.low.x() - margin, box.low.y() - margin }, high[] = { box.high.x() + margin, box.high.y() + margin };
-				list.emplace_back(low, high, &block);
-			}
-			return list;
+		auto                   boxes = [&](const std::vector<int>& blocks) {
+                        std::vector<BoxOf> list;
+                        list.reserve(blocks.size());
+                        for (const int& block : blocks) {
+                                const Box  box    = boxOf(a, block);
+                                const Real margin = 2 * limitOf(a.contacts, block);
+                                Real       low[] = { box.low.x() - margin, box.low.y() - margin }, high[] = { box.high.x() + margin, box.high.y() + margin };
+                                list.emplace_back(low, high, &block);
+                        }
+                        return list;
 		};
 		std::vector<BoxOf>              some = boxes(moved), all = boxes(every);
 		std::vector<std::array<int, 2>> found;

@@ -49,8 +49,8 @@ namespace {
 		const auto& block = a.joints.segments[joint].block;
 		throw std::invalid_argument(
 			"the joint between blocks " + std::to_string(block[0]) + " and " + std::to_string(block[1])
-			+ " must be able to carry the stress in situ, normal and shear, got " + shown(s.sigma, 6) + " and " + shown(s.tau, 6)
-			+ " Pa (tension " + shown(tension, 6) + ", shear strength " + shown(shear, 6) + " Pa)");
+			+ " must be able to carry the stress in situ, normal and shear, got " + shown(s.sigma, 6) + " and " + shown(s.tau, 6) + " Pa (tension "
+			+ shown(tension, 6) + ", shear strength " + shown(shear, 6) + " Pa)");
 	}
 
 } // namespace
@@ -83,14 +83,14 @@ void setInSitu(BlockAssembly& a, const InSituStress& field)
 	a.joints.inSituSlip.resize(a.joints.count());
 	for (int i = 0; i < a.joints.count(); ++i)
 		for (int k : { 0, 1 }) {
-			const PointStress& s          = stresses[i][k];
-			const JointParams& p          = a.joints.of(i);
-			a.joints.inSituOpening[i][k]  = s.sigma / p.kn;
-			a.joints.inSituSlip[i][k]     = s.tau / p.ks;
-			a.state.opening[2 * i + k]    = s.sigma / p.kn;
-			a.state.slip[2 * i + k]       = s.tau / p.ks;
-			a.state.sigma[2 * i + k]      = s.sigma;
-			a.state.tau[2 * i + k]        = s.tau;
+			const PointStress& s         = stresses[i][k];
+			const JointParams& p         = a.joints.of(i);
+			a.joints.inSituOpening[i][k] = s.sigma / p.kn;
+			a.joints.inSituSlip[i][k]    = s.tau / p.ks;
+			a.state.opening[2 * i + k]   = s.sigma / p.kn;
+			a.state.slip[2 * i + k]      = s.tau / p.ks;
+			a.state.sigma[2 * i + k]     = s.sigma;
+			a.state.tau[2 * i + k]       = s.tau;
 		}
 	a.rebuildJoints();
 	a.forces.before.status.clear(); // what was there before had other stresses

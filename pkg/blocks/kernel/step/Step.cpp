@@ -60,9 +60,8 @@ void sumForces(BlockAssembly& a, bool account, int threads)
 		for (int part = 0; part < threads; ++part) { // blocks with about equal numbers of zones
 			auto begin = [&](int p) {
 				const auto& zone = a.mesh.firstZone;
-				return p == threads
-					? a.blockCount()
-					: int(std::lower_bound(zone.begin(), zone.end() - 1, long(a.zoneCount()) * p / threads) - zone.begin());
+				return p == threads ? a.blockCount()
+						    : int(std::lower_bound(zone.begin(), zone.end() - 1, long(a.zoneCount()) * p / threads) - zone.begin());
 			};
 			sumRange(a, begin(part), begin(part + 1), energy);
 		}

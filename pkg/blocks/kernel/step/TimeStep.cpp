@@ -23,16 +23,17 @@ namespace {
 
 	void addZone(const BlockAssembly& a, int zone, const Moduli& m, std::vector<Real>& stiffness)
 	{
-		const Real geometric = 2 * inSituStress(a, zone, m); // see nodalStiffness
-		const ZoneGradients s    = a.mesh.zoneGradient[zone];
-		const Vec2          g[3] = { { -s.g1x - s.g2x, -s.g1y - s.g2y }, { s.g1x, s.g1y }, { s.g2x, s.g2y } };
+		const Real          geometric = 2 * inSituStress(a, zone, m); // see nodalStiffness
+		const ZoneGradients s         = a.mesh.zoneGradient[zone];
+		const Vec2          g[3]      = { { -s.g1x - s.g2x, -s.g1y - s.g2y }, { s.g1x, s.g1y }, { s.g2x, s.g2y } };
 		for (int i = 0; i < 3; ++i)
 			for (int j = 0; j < 3; ++j) { // K_ij = V (lambda g_i g_j^T + mu (g_j g_i^T + g_i.g_j 1))
 				const Real dot = m.mu * g[i].dot(g[j]), mixed = m.lambda + m.mu;
-				const Real elastic = spectralNorm(mixed * g[i].x() * g[j].x() + dot,
-				                       m.lambda * g[i].x() * g[j].y() + m.mu * g[j].x() * g[i].y(),
-				                       m.lambda * g[i].y() * g[j].x() + m.mu * g[j].y() * g[i].x(),
-				                       mixed * g[i].y() * g[j].y() + dot);
+				const Real elastic = spectralNorm(
+					mixed * g[i].x() * g[j].x() + dot,
+					m.lambda * g[i].x() * g[j].y() + m.mu * g[j].x() * g[i].y(),
+					m.lambda * g[i].y() * g[j].x() + m.mu * g[j].y() * g[i].x(),
+					mixed * g[i].y() * g[j].y() + dot);
 				const Real turning = geometric > 0 ? geometric * g[i].norm() * g[j].norm() : 0;
 				stiffness[a.mesh.zoneNodes[zone][i]] += a.mesh.zoneVolume[zone] * (elastic + turning);
 			}

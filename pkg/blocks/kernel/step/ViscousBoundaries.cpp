@@ -161,10 +161,10 @@ Real ViscousStep::end(BlockAssembly& a, Real dt, Real time, StepWork& work) cons
 	Real        incomingBefore = 0, viscousBefore = 0, fastest = 0;
 	const auto& all = a.supports.dashpots;
 	for (size_t first = 0, last; first < all.size(); first = last) { // those of one grid point
-		const int   n = all[first].node;
-		const Vec2  w = a.supports.mobility[n], v = before[first], without = a.state.velocity[n], force = a.forces.nodal[n];
-		Dashpot     sum;
-		Vec2        pull = Vec2::Zero();
+		const int  n = all[first].node;
+		const Vec2 w = a.supports.mobility[n], v = before[first], without = a.state.velocity[n], force = a.forces.nodal[n];
+		Dashpot    sum;
+		Vec2       pull = Vec2::Zero();
 		for (last = first; last < all.size() && all[last].node == n; ++last) {
 			const Dashpot d = acting(all[last], w);
 			sum.xx += d.xx, sum.xy += d.xy, sum.yy += d.yy;

@@ -17,10 +17,10 @@ namespace {
 	template <Strain kind, bool energy, bool inSitu = false>
 	inline __attribute__((always_inline)) void forcesOfBatch(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m)
 	{
-		const Moduli moduli = m;
-		const Real * g1x = mesh.zoneGradient.g1x.data() + first, *g1y = mesh.zoneGradient.g1y.data() + first;
-		const Real * g2x = mesh.zoneGradient.g2x.data() + first, *g2y = mesh.zoneGradient.g2y.data() + first;
-		const Real*  volume = mesh.zoneVolume.data() + first;
+		const Moduli                 moduli = m;
+		const Real *                 g1x = mesh.zoneGradient.g1x.data() + first, *g1y = mesh.zoneGradient.g1y.data() + first;
+		const Real *                 g2x = mesh.zoneGradient.g2x.data() + first, *g2y = mesh.zoneGradient.g2y.data() + first;
+		const Real*                  volume  = mesh.zoneVolume.data() + first;
 		[[maybe_unused]] const Real *startXX = nullptr, *startYY = nullptr, *startXY = nullptr;
 		if constexpr (inSitu) startXX = mesh.inSitu.xx.data() + first, startYY = mesh.inSitu.yy.data() + first, startXY = mesh.inSitu.xy.data() + first;
 #pragma GCC ivdep
@@ -145,7 +145,7 @@ void addZoneForces(const BlockAssembly& a, int first, int last, Vec2* force, Rea
 	const bool   large = a.strain == Strain::large;
 	Kernel       law   = energy ? (large ? largeWithEnergy : smallWithEnergy) : (large ? largeStrain : smallStrain);
 	if (!mesh.inSitu.empty()) law = large ? largeInSitu : smallInSitu;
-	const auto   isFan = [&](int block) { return mesh.isFan[block] && mesh.firstZone[block + 1] - mesh.firstZone[block] <= zoneBatch; };
+	const auto isFan = [&](int block) { return mesh.isFan[block] && mesh.firstZone[block + 1] - mesh.firstZone[block] <= zoneBatch; };
 	for (int next; first < last; first = next) {
 		next = first + 1;
 		if (isFan(first)) {
