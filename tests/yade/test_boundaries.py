@@ -1,6 +1,6 @@
 # yade-blocks, GPL-2.0-or-later
 """Viscous boundaries, damping proportional to stiffness, stresses in situ, removal of blocks: as a script sees them. The physics is tested in kernel/."""
-from math import cos, exp, pi, sin, sqrt
+from math import cos, pi, sin, sqrt
 
 import numpy as np
 import pytest
@@ -17,6 +17,11 @@ def energies():
 	return {name: value for name, value in O.energy.items() if name.startswith('block')}
 
 
+def whole(**changes):
+	"""A joint between blocks of 'unit' that does not break."""
+	return [JointMat(material1='unit', material2='unit', **{**glue, 'cohesion': 1e15, 'tension': 1e15, **changes})]
+
+
 def bar(zones, straight=None, smallStrain=True):
 	"""One cell wide, so many high; moves along y (straight='x') or x, with viscous ends."""
 	materials()
@@ -27,38 +32,39 @@ def bar(zones, straight=None, smallStrain=True):
 	return m
 
 
-def packet(x, length):
-	"""Three waves within a smooth envelope, and its slope."""
-	k, q, inside = 2 * pi / length, 2 * pi / (3 * length), abs(x) < 1.5 * length
-	envelope = (1 + np.cos(q * x)) / 2
-	return inside * envelope * np.sin(k * x), inside * (envelope * k * np.cos(k * x) - q * np.sin(q * x) / 2 * np.sin(k * x))
+def top(m):
+	return nodesWhere(m, lambda x, y: y > m.reference[:, 1].max() - 1e-9)
+
+
+def bottom(m):
+	return nodesWhere(m, lambda x, y: y < 1e-9)
 
 
 @pytest.mark.parametrize('kind', ['P', 'S'])
 def test_planeWavesGoOut(kind):
-	"""20 zones a wave length: of a packet in the middle of four, less than 1 % of the amplitude is there when what came back is in the middle again (the
-	end of a row of masses and springs sends (kh)^2/16 = 0.6 % back). All its energy has gone through the boundary."""
-	axis, zones, speed = 'xy'.index('y' if kind == 'P' else 'x'), 80, waves[kind]
+	"""20 zones a wave length: a packet of three waves comes in at the base, goes through 80 zones and out at the top. When it is gone, what came back is in
+	the middle: less than 1 % of the amplitude (the end of a row of masses and springs sends (kh)^2/16 = 0.6 % back). All its energy has gone out."""
+	axis, zones, length, speed = 'xy'.index('y' if kind == 'P' else 'x'), 80, 20, waves[kind]
 	m = bar(zones, straight='x' if kind == 'P' else 'y')
-	y = m.reference[:, 1]
-	m.viscous('ends', np.flatnonzero((y < 1e-9) | (y > zones - 1e-9)))
-	assert m.viscousBoundaries == ['ends']
+	m.viscous('base', bottom(m))
+	m.viscous('top', top(m))
+	assert m.viscousBoundaries == ['base', 'top']
+	way = np.linspace(0, 3 * length, 601)
+	velocities = np.zeros((len(way), 2))
+	velocities[:, axis] = 0.01 * np.sin(pi * way / way[-1])**2 * np.sin(2 * pi * way / length)
+	m.setIncoming('base', way / speed, velocities)
 	m.insert()
 	O.trackEnergy, O.engines = True, loopList(safety=0.7, **dynamic)
-	O.run(1, True) # it sets O.dt
-	m.displacement[:] = 0
-	m.displacement[:, axis] = 1e-6 * packet(y - zones / 2, 20)[0]
-	m.velocity[:, axis] = -speed * 1e-6 * packet(y - zones / 2 + speed * O.dt / 2, 20)[1]
-	amplitude, before = abs(m.velocity).max(), sum(energies().values())
-	O.run(1, True)
-	start = energies()
-	assert start['blockViscous'] == 0
-	O.run(int(zones / speed / O.dt), True)
+	amplitude = abs(velocities).max()
+	most = 0
+	while O.time < (zones + 3 * length + 5) / speed:
+		O.run(5, True)
+		if O.time < zones / speed: most = max(most, abs(m.velocity).max())
+	assert most == pytest.approx(amplitude, rel=0.03) # the envelope spreads a little
 	assert 1e-4 * amplitude < abs(m.velocity).max() < 0.01 * amplitude
 	e = energies()
-	held = start['blockZones'] + start['blockKinetic']
-	# linear, but for what a script wrote; the balance is exact to rounding of 1e-16 of displacements of 1e-6
-	assert e['blockViscous'] == pytest.approx(held, rel=1e-3) and abs(sum(e.values()) - sum(start.values())) < 1e-9 * held
+	# linear: the balance is exact to rounding
+	assert e['blockViscous'] == pytest.approx(-e['blockWork'], rel=1e-3) and abs(sum(e.values())) < 1e-9 * e['blockViscous']
 
 
 def test_waveFromBelow():
@@ -87,17 +93,13 @@ def energiesAddUp():
 	return abs(sums.error()) < 1e-3 and sums.dissipated()['viscous'] > 0
 
 
-def top(m): return nodesWhere(m, lambda x, y: y > m.reference[:, 1].max() - 1e-9)
-def bottom(m): return nodesWhere(m, lambda x, y: y < 1e-9)
-
-
 def test_savedInTheMiddle(tmp_path):
 	def scene():
 		materials()
 		m = BlockModel(thickness=0.2)
 		for y in 0, 0.3:
 			m.addRegion(rectangle(0, y, 0.4, y + 0.3), 'unit', zoneSize=0.15, zoning='regular')
-		m.bond(strong())
+		m.bond(whole())
 		m.setStress((-1e5, -2e5, 0))
 		m.viscous('base', bottom(m))
 		m.setIncoming('base', [0, 1e-3, 3e-3], [(0, 0), (0.1, 0.2), (0, 0)])
@@ -178,7 +180,7 @@ def rockMass(**changes):
 	materials()
 	m = BlockModel(thickness=0.5)
 	m.addVoronoi(rectangle(0, 0, 2, 2), 'unit', size=0.3, seed=4)
-	m.bond(strong())
+	m.bond(whole())
 	return m
 
 
@@ -229,7 +231,7 @@ def test_openingInAStressedPlate():
 	m = BlockModel(thickness=1, planeStress=True)
 	m.addRegion(arc + [(size, 0), (size, size), (0, size)], 'unit', zoneSize=0.7)
 	m.addRegion([(0, 0)] + arc[::-1], 'unit', zoneSize=0.7)
-	m.bond(strong(kn=1e13, ks=1e13))
+	m.bond(whole(kn=1e13, ks=1e13))
 	disc = m.blockCount - 1
 	inDisc = range(*(m.firstNode[disc], m.nodeCount))
 	low, left = (nodesWhere(m, lambda x, y: (x, y)[k] < 1e-9) for k in (1, 0))
