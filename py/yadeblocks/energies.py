@@ -7,9 +7,11 @@
 """
 import math
 
-#: Names in `O.energy` by what they mean; without joints that soften the first two and the cap are missing there.
+#: Names in `O.energy` by what they mean; without joints that soften the first two and the cap are missing there, as are the
+#: last three in scenes that have none of them.
 sinks = {
-	"mode_I": "blockModeI", "mode_II": "blockModeII", "friction": "blockFriction", "cap": "blockCap", "brittle": "blockFracture", "damping": "blockDamping"
+	"mode_I": "blockModeI", "mode_II": "blockModeII", "friction": "blockFriction", "cap": "blockCap", "brittle": "blockFracture", "damping": "blockDamping",
+	"stiffness": "blockStiffness", "viscous": "blockViscous", "removed": "blockRemoved"
 }
 
 
@@ -33,7 +35,8 @@ def spent():
 
 
 def dissipated():
-	"""By cause: opening, slip without friction, friction and crushing of joints, breaking of brittle ones, damping."""
+	"""By cause: opening, slip without friction, friction and crushing of joints, breaking of brittle ones, damping of the motion and proportional to
+	stiffness; what waves took out through viscous boundaries, and what removed blocks held."""
 	entries = _entries()
 	return {cause: entries.get(name, 0.0) for cause, name in sinks.items()}
 

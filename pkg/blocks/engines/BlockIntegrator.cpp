@@ -1,4 +1,5 @@
 // yade-blocks, GPL-2.0-or-later
+#include <algorithm>
 #include <blocks/engines/BlockIntegrator.hpp>
 #include <blocks/engines/Rescue.hpp>
 #include <blocks/engines/RigidBodies.hpp>
@@ -39,7 +40,7 @@ void BlockIntegrator::postLoad(BlockIntegrator&)
 void BlockIntegrator::newScene()
 {
 	watch     = {};
-	kineticId = zonesId = jointsId = dampingId = workId = -1;
+	kineticId = zonesId = jointsId = dampingId = workId = viscousId = stiffnessId = removedId = -1;
 }
 
 Real BlockIntegrator::viscosity() const { return BlockModel::of(Omega::instance().getScene().get())->assembly.state.viscosity; }
@@ -49,6 +50,9 @@ void BlockIntegrator::checkStep(BlockModel& model)
 	const blocks::BlockAssembly& a = model.assembly;
 	model.requireProperties();
 	blocks::require(scene->dt > 0 && std::isfinite(scene->dt), "O.dt must be positive and finite [s]", scene->dt);
+	if (a.supports.stiffnessDamping > 0 && law.kind != blocks::Damping::Kind::none)
+		throw std::runtime_error(
+			getClassName() + ".damping must be 'none' with BlockModel.stiffnessDamping, which is the damping then, got '" + damping + "'");
 	const Real share = scene->dt / blocks::stableTimeStep(a, model.stiffness(), a.state.inertia), limit = blocks::largestSafety(law);
 	const Real rigidShare = scene->dt / blocks::rigidTimeStep(a, model.stiffness(), blocks::Masses::resisting),
 		   rigidLimit = 0.95 / std::sqrt(1 + model.newtonDamping);
@@ -62,6 +66,10 @@ void BlockIntegrator::checkStep(BlockModel& model)
 		"O.dt as a fraction of the stable time step of rigid blocks must not exceed " + blocks::shown(rigidLimit)
 			+ " with NewtonIntegrator.damping=" + blocks::shown(model.newtonDamping) + " (smaller O.dt or safety)",
 		rigidShare);
+	const auto& removed = a.mesh.removed;
+	const long  gone    = std::count(removed.begin(), removed.end(), true);
+	if (gone != knownRemoved) watch = {}; // no earlier state can be put back, and other energy is to be kept
+	knownRemoved   = gone;
 	checkedVersion = model.stiffnessVersion();
 	checkedDt      = scene->dt;
 }
@@ -90,7 +98,11 @@ void BlockIntegrator::step(BlockModel& model)
 		booked.pendingDamping = work.dampingAfter;
 		scene->energy->set(work.kinetic, "blockKinetic", kineticId);
 		scene->energy->set(booked.damping, "blockDamping", dampingId);
-		scene->energy->set(-blocks::groupWork(a) - blocks::rigidWork(a) - loadWork, "blockWork", workId);
+		const blocks::FurtherAccounts& further = a.state.further;
+		scene->energy->set(-blocks::groupWork(a) - blocks::rigidWork(a) - further.incoming - loadWork, "blockWork", workId);
+		if (further.viscous != 0 || !a.supports.viscous.empty()) scene->energy->set(further.viscous, "blockViscous", viscousId);
+		if (further.stiffness != 0 || a.supports.stiffnessDamping > 0) scene->energy->set(further.stiffness, "blockStiffness", stiffnessId);
+		if (!a.mesh.removed.empty()) scene->energy->set(further.removed, "blockRemoved", removedId);
 	}
 }
 

@@ -79,7 +79,9 @@ namespace {
 	void requireInteractions(const Scene* scene, const BlockModel& model)
 	{
 		if (!model.showsInteractions) return;
-		vector<char> seen(model.assembly.joints.pairs.size(), false);
+		vector<char> seen;
+		for (const auto& pair : model.assembly.joints.pairs)
+			seen.push_back(model.assembly.isRemoved(pair.block[0]) || model.assembly.isRemoved(pair.block[1]));
 		for (const auto& interaction : *scene->interactions) {
 			const auto* geom = dynamic_cast<const BlockGeom*>(interaction->geom.get());
 			if (geom && geom->pair >= 0 && geom->model.get() == &model) seen[geom->pair] = true;
@@ -121,7 +123,7 @@ void requireUntouched(const Scene* scene, const BlockModel& model)
 {
 	const_cast<Scene*>(scene)->forces.sync();
 	for (int i = 0; i < model.assembly.blockCount(); ++i)
-		requireBody(scene, model, i);
+		if (!model.assembly.isRemoved(i)) requireBody(scene, model, i);
 	requireJoints(model);
 	requireInteractions(scene, model);
 }

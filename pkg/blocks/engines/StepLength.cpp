@@ -27,6 +27,14 @@ Real StepLength::adjust(Scene* scene, BlockModel& model, Real safety, bool quasi
 	if (model.stiffnessVersion() == doneVersion && scene->dt == doneDt && safety == doneSafety && quasiStatic == doneQuasiStatic) return limit;
 	blocks::require(safety > 0 && safety <= 0.95, std::string(engine) + ".safety must lie in (0, 0.95]", safety);
 
+	if (quasiStatic && !a.supports.viscous.empty())
+		throw std::runtime_error(
+			std::string(engine) + ".quasiStatic must be False with viscous boundaries: scaled masses have other waves, got True (boundary \""
+			+ a.supports.viscous.front().name + "\")");
+	if (quasiStatic && a.supports.stiffnessDamping > 0)
+		throw std::runtime_error(
+			std::string(engine) + ".quasiStatic must be False with BlockModel.stiffnessDamping: scaled masses have other frequencies, got True ("
+			+ blocks::shown(a.supports.stiffnessDamping) + " s)");
 	const auto& stiffness = model.stiffness();
 	limit                 = limitOf(a, stiffness);
 	const Real kinetic    = tracking ? blocks::gridPointsKineticEnergy(a) : 0;

@@ -1,9 +1,14 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
+#include <blocks/kernel/analysis/Removal.hpp>
+#include <blocks/kernel/step/InSitu.hpp>
 #include <blocks/kernel/step/Loads.hpp>
+#include <blocks/kernel/step/StiffnessDamping.hpp>
+#include <blocks/kernel/step/ViscousBoundaries.hpp>
 #include <blocks/python/Follow.hpp>
 #include <blocks/python/ModelPython.hpp>
 #include <blocks/python/Numpy.hpp>
+#include <core/BodyContainer.hpp>
 #include <core/Omega.hpp>
 #include <limits>
 
@@ -171,11 +176,170 @@ namespace {
 			blocks::addTraction(model.assembly, inRange(edge, "BlockModel.traction: an edge"), stress);
 	}
 
+	void viscous(BlockModel& model, const string& name, const py::object& nodes, const py::object& impedance)
+	{
+		const string      what = "viscous boundary \"" + name + "\": ";
+		blocks::Impedance z;
+		if (!impedance.is_none()) {
+			if (py::len(impedance) != 2)
+				throw std::invalid_argument(
+					what + "impedance must be a pair, normal and tangential, got " + std::to_string(py::len(impedance)));
+			z = { py::extract<Real>(impedance[0]), py::extract<Real>(impedance[1]) };
+			for (Real part : { z.normal, z.tangential })
+				blocks::require(part > 0, what + "impedances must be positive and finite [Pa s/m]", part);
+		}
+		vector<int> list;
+		for (long node : integers(nodes))
+			list.push_back(inRange(node, what + "a grid point"));
+		blocks::addViscous(model.assembly, name, list, z);
+		model.stiffnessChanged(); // masses that are scaled are refused where they are made
+	}
+
+	void setIncoming(BlockModel& model, const string& name, const py::object& times, const py::object& velocities)
+	{
+		const string     what     = "viscous boundary \"" + name + "\": ";
+		const int        boundary = blocks::viscousOf(model.assembly, name);
+		const py::object array = py::import("numpy").attr("asarray")(velocities, "float"), shape = array.attr("shape");
+		const py::object list = py::import("numpy").attr("asarray")(times, "float").attr("ravel")().attr("tolist")();
+		if (py::len(shape) != 2 || py::extract<long>(shape[1])() != 2)
+			throw std::invalid_argument(what + "velocities must have two columns, along x and y");
+		const py::object     rows = array.attr("tolist")();
+		vector<Real>         when;
+		vector<blocks::Vec2> wave;
+		for (long i = 0; i < py::len(list); ++i)
+			when.push_back(py::extract<Real>(list[i]));
+		for (long i = 0; i < py::len(rows); ++i)
+			wave.emplace_back(py::extract<Real>(rows[i][0])(), py::extract<Real>(rows[i][1])());
+		blocks::setIncoming(model.assembly, boundary, when, wave);
+	}
+	void releaseViscous(BlockModel& model, const string& name)
+	{
+		blocks::releaseViscous(model.assembly, blocks::viscousOf(model.assembly, name));
+		model.stiffnessChanged();
+	}
+	py::tuple viscousForce(BlockModel& model, const string& name)
+	{
+		const Real         time = Omega::instance().getScene()->time;
+		const blocks::Vec2 f    = blocks::viscousForce(model.assembly, blocks::viscousOf(model.assembly, name), time);
+		return py::make_tuple(f.x(), f.y());
+	}
+	py::list viscousNames(const BlockModel& model)
+	{
+		py::list names;
+		for (const blocks::ViscousBoundary& b : model.assembly.supports.viscous)
+			names.append(b.name);
+		return names;
+	}
+
+	Real getStiffnessDamping(const BlockModel& model) { return model.assembly.supports.stiffnessDamping; }
+	void setStiffnessDamping(BlockModel& model, Real beta)
+	{
+		blocks::require(beta >= 0 && std::isfinite(beta), "BlockModel.stiffnessDamping must not be negative [s]", beta);
+		blocks::setStiffnessDamping(model.assembly, beta);
+		model.stiffnessChanged(); // the step is bounded by it
+	}
+
+	blocks::InSituStress fieldOf(const Vector3r& stress, const Vector3r& gradient, Real level)
+	{
+		return { { stress[0], stress[1], stress[2] }, { gradient[0], gradient[1], gradient[2] }, level };
+	}
+	void setStress(BlockModel& model, const Vector3r& stress, const Vector3r& gradient, Real level)
+	{
+		blocks::setInSitu(model.assembly, fieldOf(stress, gradient, level));
+		model.zonesChanged();
+	}
+	void stressTraction(BlockModel& model, const py::object& edges, const Vector3r& stress, const Vector3r& gradient, Real level)
+	{
+		const auto list = integers(edges);
+		if (list.empty()) throw std::invalid_argument("BlockModel.stressTraction: no edges were chosen");
+		for (long edge : list)
+			blocks::addInSituTraction(model.assembly, inRange(edge, "BlockModel.stressTraction: an edge"), fieldOf(stress, gradient, level));
+	}
+
+	/// Bodies go with their blocks, and their interactions with them.
+	void removeBlocks(BlockModel& model, const py::object& blocks)
+	{
+		if (model.firstBody < 0)
+			throw std::runtime_error("BlockModel.remove must come after BlockModel.insert(): leave out blocks that are not to be there");
+		vector<int> list;
+		for (long block : integers(blocks))
+			list.push_back(inRange(block, "BlockModel.remove: a block"));
+		blocks::removeBlocks(model.assembly, list);
+		model.zonesChanged();
+		Scene* scene = Omega::instance().getScene().get();
+		for (int block : list)
+			if (scene->bodies->exists(model.firstBody + block)) scene->bodies->erase(model.firstBody + block, false);
+	}
+	py::object removedBlocks(BlockModel& model)
+	{
+		vector<int> list;
+		for (int block = 0; block < model.assembly.blockCount(); ++block)
+			if (model.assembly.isRemoved(block)) list.push_back(block);
+		return numpyOf(list, false).attr("copy")();
+	}
+
 } // namespace
 
 void defineSupports(PythonModel& c)
 {
 	using py::arg;
+	c.def("viscous",
+	      &viscous,
+	      (arg("name"), arg("nodes"), arg("impedance") = py::object()),
+	      "Makes the boundary between these grid points viscous (absorbing): dashpots of rho c_p A across and rho c_s A along it, as if the medium went on "
+	      "behind it; c_p and c_s are those of each block's material, A the area of a grid point's share. Plane waves go out at normal incidence; at 30 "
+	      "degrees some 2 % of the amplitude comes back, at grazing incidence all. impedance: (normal, tangential) of what is behind [Pa s/m], if it is "
+	      "another material or jointed. After bond(): edges that have joints are no boundary. A dashpot acts on what forces move; along the axes of a "
+	      "group "
+	      "there is none (held sides may end in a viscous base). It carries no lasting force: weight needs a support, or stresses in situ with their "
+	      "tractions. The time step need not be shorter. ``O.energy``: 'blockViscous' is what waves took out, what came in is in 'blockWork'. "
+	      "Errors: ValueError for a name that is taken, grid points without a boundary edge between them, of rigid blocks, or of groups that push "
+	      "or hold both axes, impedances that are not positive; RuntimeError in the first step with scaled masses (quasiStatic=True), whose waves are "
+	      "not those of the material. Source: Lysmer and Kuhlemeyer 1969.")
+		.def("setIncoming",
+	             &setIncoming,
+	             (arg("name"), arg("times"), arg("velocities")),
+	             "Lets a wave come in through a viscous boundary: its velocities [m/s], shape (times, 2), at ascending times [s]; linear between them, "
+	             "zero "
+	             "outside. The boundary pulls with twice these velocities times the impedance, so that what comes back goes out. An accelerogram of an "
+	             "outcrop "
+	             "is twice the incoming wave. Errors: ValueError for no such boundary, times that do not ascend, or shapes that do not fit.")
+		.def("releaseViscous",
+	             &releaseViscous,
+	             (arg("name")),
+	             "Takes a viscous boundary away; what went through it stays in the accounts. Error: ValueError if there is none of this name.")
+		.def("viscousForce",
+	             &viscousForce,
+	             (arg("name")),
+	             "Force (x, y) that a viscous boundary puts on the blocks at their present velocities [N]. Error: ValueError if there is none of this "
+	             "name.")
+		.add_property("viscousBoundaries", &viscousNames, "Names of the viscous boundaries.")
+		.add_property(
+			"stiffnessDamping",
+			&getStiffnessDamping,
+			&setStiffnessDamping,
+			"Damping proportional to stiffness, Rayleigh's beta [s]; 0: none. Zones and intact joints resist the rate of their strain by beta "
+			"times "
+			"their stiffness: a mode of angular frequency omega loses as with xi = beta omega / 2 of the critical damping, so that what rattles "
+			"after a blow dies away and slow motion stays. A rigid motion has none. The time step gets shorter: limit^2 / (sqrt(beta^2 + limit^2) "
+			"+ beta). 'blockStiffness' in ``O.energy`` is what it dissipated. Errors: ValueError if it is negative; RuntimeError in the first step "
+			"with "
+			"scaled masses, or with another damping than 'none'.")
+		.def("setStress",
+	             &setStress,
+	             (arg("stress"), arg("gradient") = Vector3r(0, 0, 0), arg("level") = 0.),
+	             "Gives zones and joints the stresses that they have in situ: (sxx, syy, sxy) [Pa] at y = level [m], tension positive, and their change "
+	             "with y "
+	             "[Pa/m]. Before the first step. A bonded model under such stresses does not move if its supports and loads are in equilibrium with "
+	             "them: stressTraction() on free edges, gravity for a gradient (dsyy/dy + density g_y = 0). Displacements count from there; what "
+	             "zones and joints hold is in 'blockZones' and 'blockJoints'. Blocks that touch without a joint have none. "
+	             "Errors: ValueError where something has moved, a joint has no properties or cannot carry it. elasticJump() and follow() know none.")
+		.def("stressTraction",
+	             &stressTraction,
+	             (arg("edges"), arg("stress"), arg("gradient") = Vector3r(0, 0, 0), arg("level") = 0.),
+	             "Adds to boundary edges (indices into edgeNodes), as dead load, what stresses in situ pull there; see setStress(). Error: ValueError for "
+	             "no "
+	             "edges, or one that is not there.");
 	c.def("drive",
 	      &drive,
 	      (arg("name"), arg("nodes"), arg("axes"), arg("velocity") = 0., arg("rampTime") = 0., arg("startTime") = 0.),
@@ -185,6 +349,18 @@ void defineSupports(PythonModel& c)
 	             &push,
 	             (arg("name"), arg("nodes"), arg("axis"), arg("force"), arg("rampTime") = 0., arg("startTime") = 0.),
 	             "Moves grid points along one axis as one, as under a platen that stays parallel, by a total force [N].")
+		.def("remove",
+	             &removeBlocks,
+	             (arg("blocks")),
+	             "Takes deformable blocks (indices) out of a scene between two steps: excavation, stages. Their joints and contacts carry nothing any "
+	             "more, "
+	             "their bodies and interactions are gone, and indices of all others stay. What they held is 'blockRemoved' in ``O.energy``. All at once: "
+	             "what they carried comes upon their neighbours within a step; take out few at a time, or damp (loading.settle), where joints could "
+	             "break of it. "
+	             "Errors: ValueError for rigid blocks, blocks that are gone, those with grid points of a group or of a viscous boundary (release it "
+	             "first), or all "
+	             "that are left; RuntimeError before insert(). elasticJump() and follow() know no such scenes.")
+		.add_property("removedBlocks", &removedBlocks, "Indices of the blocks that have been removed, ascending. A copy.")
 		.def("release",
 	             &release,
 	             (arg("name")),

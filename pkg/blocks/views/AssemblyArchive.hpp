@@ -12,7 +12,7 @@
 namespace blocks {
 
 /// Grows whenever the fields change. Files of another format are refused.
-constexpr int archiveFormat = 3;
+constexpr int archiveFormat = 4;
 
 } // namespace blocks
 
@@ -42,6 +42,9 @@ namespace serialization {
 	BLOCKS_ARCHIVE(ReleasedWork)
 	BLOCKS_ARCHIVE(Accounts)
 	BLOCKS_ARCHIVE(Softened)
+	BLOCKS_ARCHIVE(FurtherAccounts)
+	BLOCKS_ARCHIVE(Dashpot)
+	BLOCKS_ARCHIVE(ViscousBoundary)
 	BLOCKS_ARCHIVE(State)
 #undef BLOCKS_ARCHIVE
 

@@ -110,8 +110,11 @@ void BlockModel::requireOpen(const char* what) const
 
 bool BlockModel::isIn(const Scene* scene) const
 {
-	if (firstBody < 0 || size_t(firstBody) >= scene->bodies->size()) return false;
-	const auto& body  = (*scene->bodies)[firstBody];
+	int first = firstBody;
+	while (first >= 0 && first - firstBody < assembly.blockCount() && assembly.isRemoved(first - firstBody))
+		++first;
+	if (first < 0 || size_t(first) >= scene->bodies->size()) return false;
+	const auto& body  = (*scene->bodies)[first];
 	const auto* block = body ? dynamic_cast<const Block*>(body->shape.get()) : nullptr;
 	return block && block->model.get() == this;
 }
@@ -191,14 +194,15 @@ void BlockModel::requireBodies(const Scene* scene) const
 {
 	const auto& bodies = scene->bodies->body;
 	for (int id = firstBody; id < firstBody + assembly.blockCount(); ++id)
-		if (size_t(id) >= bodies.size() || !bodies[id])
-			throw std::runtime_error("body " + std::to_string(id) + " was erased, but blocks cannot leave their model");
+		if ((size_t(id) >= bodies.size() || !bodies[id]) && !assembly.isRemoved(id - firstBody))
+			throw std::runtime_error(
+				"body " + std::to_string(id) + " was erased, but blocks cannot leave their model; BlockModel.remove takes them out of it");
 }
 
 void BlockModel::writeCentroids(Scene* scene)
 {
 	for (int i = 0; i < assembly.blockCount(); ++i) {
-		if (assembly.isRigid(i)) continue; // it was the body that moved
+		if (assembly.isRigid(i) || assembly.isRemoved(i)) continue; // it was the body that moved, or there is none
 		const auto&        body     = (*scene->bodies)[firstBody + i];
 		const blocks::Vec2 centroid = assembly.centroid(i);
 		body->state->pos            = Vector3r(centroid.x(), centroid.y(), 0);
@@ -301,6 +305,7 @@ int BlockModel::bodyOf(int block) const
 {
 	if (firstBody < 0) throw std::runtime_error("BlockModel.bodyOf: blocks have no bodies before BlockModel.insert()");
 	blocks::require(block >= 0 && block < assembly.blockCount(), "BlockModel.bodyOf needs the index of a block", block);
+	blocks::require(!assembly.isRemoved(block), "BlockModel.bodyOf: the block has been removed", block);
 	return firstBody + block;
 }
 

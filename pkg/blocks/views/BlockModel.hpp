@@ -25,6 +25,9 @@ public:
 	long stiffnessVersion() const { return version; }
 	void stiffnessChanged() { version = ++lastVersion; }
 
+	/// ... and zones, too.
+	void zonesChanged() { zoneStiffness.clear(), stiffnessChanged(); }
+
 	virtual ~BlockModel();
 	void postLoad(BlockModel&);
 

@@ -22,7 +22,7 @@ Vector3r BlockState::velocity() const
 		sum += a.mesh.mass[n] * Vector3r(a.state.velocity[n].x(), a.state.velocity[n].y(), 0);
 		total += a.mesh.mass[n];
 	}
-	return sum / total;
+	return total > 0 ? Vector3r(sum / total) : sum; // a removed block has no mass
 }
 
 void BlockState::refuse(const py::object&)

@@ -15,7 +15,7 @@ Real zoneEnergy(const BlockAssembly& a)
 		const Moduli moduli = moduliOf(a, block);
 		Real         sum    = 0;
 		for (int z = a.mesh.firstZone[block]; z < a.mesh.firstZone[block + 1]; ++z)
-			sum += a.mesh.zoneVolume[z] * zoneEnergyDensity(moduli, strainOf(a, z));
+			sum += a.mesh.zoneVolume[z] * zoneEnergyDensity(moduli, elasticStrainOf(a, z));
 		total += sum;
 	}
 	return total;

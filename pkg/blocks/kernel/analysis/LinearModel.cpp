@@ -153,6 +153,8 @@ namespace {
 LinearModel linearise(const BlockAssembly& assembly, const Growth& growth, int growing)
 {
 	requireJointsOnly(assembly);
+	if (!assembly.mesh.inSitu.empty()) throw std::runtime_error("the linear model knows no stresses in situ");
+	if (!assembly.mesh.removed.empty()) throw std::runtime_error("the linear model knows no removed blocks");
 	LinearModel m;
 	m.growth = growth;
 	m.motion.resize(2 * assembly.nodeCount());
@@ -165,6 +167,7 @@ LinearModel linearise(const BlockAssembly& assembly, const Growth& growth, int g
 	assembleZones(a, m);
 
 	a.supports.load.clear();
+	a.supports.stiffnessDamping = 0;
 	a.state.sigma.assign(a.pointCount(), 0);
 	a.state.tau.assign(a.pointCount(), 0);
 	updateJointForces(a, allJoints(a));

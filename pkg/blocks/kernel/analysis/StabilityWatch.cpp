@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/kernel/analysis/Energy.hpp>
 #include <blocks/kernel/analysis/StabilityWatch.hpp>
+#include <blocks/kernel/step/ViscousBoundaries.hpp>
 
 namespace blocks {
 namespace {
@@ -37,7 +38,7 @@ namespace {
 	/// What half a step of the present forces adds to the kinetic energy, dt v.f / 2.
 	Real kineticChange(const BlockAssembly& a, Real time, Real dt)
 	{
-		Real power = 0;
+		Real power = viscousPower(a, time);
 		for (int n = 0; n < a.nodeCount(); ++n)
 			for (int axis : { 0, 1 })
 				if (a.supports.mobility[n][axis] > 0) power += a.state.velocity[n][axis] * a.forces.nodal[n][axis];
@@ -71,7 +72,7 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 			         + described(overlaps.joint) + cure };
 	}
 
-	Real turnover = a.state.accounts.released.turnover;
+	Real turnover = a.state.accounts.released.turnover + a.state.further.incoming;
 	for (const MotionGroup& g : a.state.groups)
 		turnover += g.workTurnover;
 	for (const RigidBlock& r : a.state.rigid)
@@ -82,16 +83,17 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 		for (int block = 0; block < a.blockCount(); ++block)
 			for (int z = a.mesh.firstZone[block]; z < a.mesh.firstZone[block + 1]; ++z)
 				roundingEnergy += a.mesh.materials[a.mesh.blockMaterial[block]].young * a.mesh.zoneVolume[z] * roundingStrain * roundingStrain;
-		baseline = energy - groupWork(a) - rigidWork(a) - work;
+		baseline = energy - groupWork(a) - rigidWork(a) - a.state.further.incoming - work;
 		begun    = true;
 		compared = step;
 	}
 	if (loadsChanged(a))
-		baseline = energy - groupWork(a) - rigidWork(a) - work - lastExcess; // no work since the last look is known to be theirs
+		baseline = energy - groupWork(a) - rigidWork(a) - a.state.further.incoming - work
+			- lastExcess; // no work since the last look is known to be theirs
 	else
 		baseline += energyOfNewMasses(a);
 	inertia            = a.state.inertia;
-	const Real excess  = energy - groupWork(a) - rigidWork(a) - work - baseline;
+	const Real excess  = energy - groupWork(a) - rigidWork(a) - a.state.further.incoming - work - baseline;
 	const Real scale   = std::abs(baseline) + turnover + std::abs(work) + roundingEnergy;
 	const bool compare = step - compared >= leastInterval;
 	const bool grows   = compare && excess > tolerance * scale && lastExcess > tolerance * scale && excess > growth * lastExcess;

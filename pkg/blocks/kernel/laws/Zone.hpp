@@ -66,6 +66,13 @@ inline ZoneStress zoneStress(const Moduli& m, const ZoneStrain& e)
 	return { p + 2 * m.mu * e.exx, p + 2 * m.mu * e.eyy, 2 * m.mu * e.exy };
 }
 
+/// The elastic strain that a stress in the plane goes with.
+inline ZoneStrain zoneStrainOf(const Moduli& m, const ZoneStress& t)
+{
+	const Real p = m.lambda * (t.sxx + t.syy) / (2 * (m.lambda + m.mu));
+	return { (t.sxx - p) / (2 * m.mu), (t.syy - p) / (2 * m.mu), t.sxy / (2 * m.mu), 1, 0 };
+}
+
 /// Energy per volume [J/m3].
 inline Real zoneEnergyDensity(const Moduli& m, const ZoneStrain& e)
 {
@@ -91,6 +98,39 @@ template <Strain kind> inline ZoneForces zoneForces(const ZoneGradients& g, Real
 		 -volume * (pyx * g.g1x + pyy * g.g1y), //
 		 -volume * (pxx * g.g2x + pxy * g.g2y),
 		 -volume * (pyx * g.g2x + pyy * g.g2y) };
+}
+
+/// The same for a stress whose axes need not be those of the strain: stresses in situ, or those of a rate. It is work-conjugate to the strain U - 1,
+///   P = R (sigma + kappa J),  J = [0 -1; 1 0],  kappa = ((sxx - syy) exy - sxy (exx - eyy)) / tr U:
+/// P:dF = sigma:dU for every dF, and P F^T is symmetric, so that a zone has no moment of its own.
+template <Strain kind> inline ZoneForces zoneForcesOfAnyAxes(const ZoneGradients& g, Real volume, const ZoneStress& t, const ZoneStrain& e)
+{
+	Real pxx = t.sxx, pxy = t.sxy, pyx = t.sxy, pyy = t.syy;
+	if constexpr (kind == Strain::large) {
+		const Real kappa = ((t.sxx - t.syy) * e.exy - t.sxy * (e.exx - e.eyy)) / (2 + e.exx + e.eyy);
+		const Real xy = t.sxy - kappa, yx = t.sxy + kappa;
+		pxx = e.c * t.sxx - e.s * yx;
+		pxy = e.c * xy - e.s * t.syy;
+		pyx = e.s * t.sxx + e.c * yx;
+		pyy = e.s * xy + e.c * t.syy;
+	}
+	return { -volume * (pxx * g.g1x + pxy * g.g1y),
+		 -volume * (pyx * g.g1x + pyy * g.g1y), //
+		 -volume * (pxx * g.g2x + pxy * g.g2y),
+		 -volume * (pyx * g.g2x + pyy * g.g2y) };
+}
+
+/// Rate of the strain U - 1, from the velocities p and q of nodes 1 and 2 less that of node 0 [1/s]: dU/dt = R^T dF/dt - omega J U, where omega makes
+/// it symmetric. A rigid rotation has none, whatever the strain.
+template <Strain kind> inline ZoneStrain zoneStrainRate(const ZoneGradients& g, const ZoneStrain& e, Real px, Real py, Real qx, Real qy)
+{
+	const Real hxx = px * g.g1x + qx * g.g2x, hxy = px * g.g1y + qx * g.g2y;
+	const Real hyx = py * g.g1x + qy * g.g2x, hyy = py * g.g1y + qy * g.g2y;
+	if constexpr (kind == Strain::small) return { hxx, hyy, (hxy + hyx) / 2, 1, 0 };
+
+	const Real axx = e.c * hxx + e.s * hyx, axy = e.c * hxy + e.s * hyy, ayx = e.c * hyx - e.s * hxx, ayy = e.c * hyy - e.s * hxy;
+	const Real omega = (ayx - axy) / (2 + e.exx + e.eyy);
+	return { axx + omega * e.exy, ayy - omega * e.exy, (axy + ayx + omega * (e.eyy - e.exx)) / 2, e.c, e.s };
 }
 
 } // namespace blocks

@@ -122,6 +122,7 @@ Vec2 BlockAssembly::centroid(int block) const
 			edge[0] -= first, edge[1] -= first;
 		return position(first) + momentsOf(points, edges.begin(), edges.end()).centroid();
 	}
+	if (isRemoved(block)) return position(first); // it has no mass any more
 	Vec2 sum   = Vec2::Zero();
 	Real total = 0;
 	for (int n = first; n < last; ++n) {
@@ -144,6 +145,7 @@ void BlockAssembly::bond(std::vector<Segment> found)
 	joints.kinds.assign(1, JointParams());
 	joints.ofMaterials.clear(); // its kinds are no more
 	joints.softening.clear();
+	joints.inSituOpening.clear(), joints.inSituSlip.clear();
 	state.softened = {};
 	joints.kind.assign(joints.count(), 0);
 	for (auto* column : { &state.opening, &state.slip, &state.sigma, &state.tau, &state.slipPlastic, &state.uplift })
@@ -270,6 +272,9 @@ void BlockAssembly::rebuildJoints()
 			c.s2[k][i]          = g.s2[k];
 			c.bondOpening[k][i] = gap.x() * f.nx + gap.y() * f.ny;
 			c.bondSlip[k][i]    = gap.y() * f.nx - gap.x() * f.ny;
+			if (joints.inSituOpening.empty()) continue;
+			c.bondOpening[k][i] -= joints.inSituOpening[i][k];
+			c.bondSlip[k][i] -= joints.inSituSlip[i][k];
 		}
 	}
 	if (count > 0) noteKinds(0, count);
@@ -339,6 +344,12 @@ int BlockAssembly::addGroup(MotionGroup group)
 			        dof);
 	}
 	state.groups.push_back(std::move(group));
+	try {
+		requireDashpotsMove();
+	} catch (...) {
+		state.groups.pop_back();
+		throw;
+	}
 	updateMobility();
 	return int(state.groups.size()) - 1;
 }
@@ -351,6 +362,23 @@ void BlockAssembly::releaseGroup(int group)
 	released.turnover += g.workTurnover + std::abs(g.pendingWork);
 	state.groups.erase(state.groups.begin() + group);
 	updateMobility();
+}
+
+void BlockAssembly::requireDashpotsMove() const
+{
+	if (supports.dashpots.empty()) return;
+	std::vector<int>  axes(nodeCount(), 0);
+	std::vector<char> pushed(nodeCount(), false);
+	for (const MotionGroup& g : state.groups)
+		for (int dof : g.dofs) {
+			++axes[dof / 2];
+			if (g.drive == MotionGroup::Drive::force) pushed[dof / 2] = true;
+		}
+	for (const Dashpot& d : supports.dashpots) {
+		const std::string what = "viscous boundary \"" + supports.viscous[d.boundary].name + "\": ";
+		require(!pushed[d.node], what + "no group may push its grid points; grid point", d.node);
+		require(axes[d.node] < 2, what + "its grid points must be free along one axis at least; grid point", d.node);
+	}
 }
 
 void BlockAssembly::updateMobility()

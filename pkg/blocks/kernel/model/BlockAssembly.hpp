@@ -3,6 +3,7 @@
 #include <blocks/kernel/model/Joints.hpp>
 #include <blocks/kernel/model/Mesh.hpp>
 #include <blocks/kernel/model/State.hpp>
+#include <blocks/kernel/model/Viscous.hpp>
 
 /// Everything hot, in flat arrays: one BlockAssembly holds all blocks of a scene, split by who changes it.
 namespace blocks {
@@ -11,6 +12,11 @@ namespace blocks {
 struct Supports {
 	std::vector<Vec2> load;     ///< dead load, gravity included; empty if there is none [N]
 	std::vector<Vec2> mobility; ///< 1 / inertia, and 0 where motion is prescribed [1/kg]
+
+	std::vector<ViscousBoundary> viscous;
+	std::vector<Dashpot>         dashpots; ///< of all of them, sorted by grid point
+
+	Real stiffnessDamping = 0; ///< beta: zones and intact joints resist the rate of their strain by beta times their stiffness [s]
 };
 
 /// What the joints of a batch dissipated in a step [J].
@@ -37,6 +43,7 @@ struct JointHistory {
 struct Forces {
 	std::vector<Vec2>                nodal; ///< unbalanced force of every grid point: zones, joints, contacts, loads [N]
 	std::vector<std::array<Vec2, 2>> side;  ///< of the joint on every side's two grid points, block by block; one more for released joints [N]
+	std::vector<Vec2>                rate;  ///< of damping proportional to stiffness, within `nodal`; empty if there is none [N]
 	std::vector<char>                broke; ///< batch of joints -> whether a contact point of it has broken lately
 
 	// ---- only with energy accounts
@@ -65,6 +72,7 @@ struct BlockAssembly {
 	int  pointCount() const { return 2 * joints.count(); }
 	int  blockOfNode(int node) const;
 	bool isRigid(int block) const { return mesh.firstZone[block] == mesh.firstZone[block + 1]; }
+	bool isRemoved(int block) const { return !mesh.removed.empty() && mesh.removed[block]; }
 	Vec2 centroid(int block) const; ///< of the block's present mass [m]
 
 	/// Where a grid point is now [m].
@@ -109,8 +117,14 @@ struct BlockAssembly {
 	/// Sets the degrees of freedom of a group free; what it has done stays in the accounts.
 	void releaseGroup(int group);
 
+	/// Refuses a dashpot on a grid point that a group pushes, or that groups move along both axes.
+	void requireDashpotsMove() const;
+
 	/// Computes again what follows from the rest: zone gradients and volumes, columns, sides, mobility. After loading.
 	void rebuild();
+
+	/// The same for joints alone.
+	void rebuildJoints();
 
 	/// The sides of the blocks; again whenever joints have been released.
 	void listSides();
@@ -126,7 +140,6 @@ struct BlockAssembly {
 
 private:
 	void rebuildZones(int firstBlock);
-	void rebuildJoints();
 	void noteKinds(int first, int last);
 };
 

@@ -20,6 +20,7 @@ template <class T, class Visit, Only<T, Mesh> = 0> void forEachField(T& x, Visit
 	visit("materials", x.materials), visit("reference", x.reference), visit("mass", x.mass), visit("zoneNodes", x.zoneNodes);
 	visit("edgeNodes", x.edgeNodes), visit("firstNode", x.firstNode), visit("firstZone", x.firstZone), visit("firstEdge", x.firstEdge);
 	visit("blockMaterial", x.blockMaterial);
+	visit("inSituXX", x.inSitu.xx), visit("inSituYY", x.inSitu.yy), visit("inSituXY", x.inSitu.xy), visit("removed", x.removed);
 }
 
 template <class T, class Visit, Only<T, Segment> = 0> void forEachField(T& x, Visit&& visit)
@@ -54,7 +55,7 @@ template <class T, class Visit, Only<T, SofteningParams> = 0> void forEachField(
 template <class T, class Visit, Only<T, Joints> = 0> void forEachField(T& x, Visit&& visit)
 {
 	visit("segments", x.segments), visit("pairs", x.pairs), visit("kinds", x.kinds), visit("kind", x.kind), visit("ofMaterials", x.ofMaterials);
-	visit("softening", x.softening);
+	visit("softening", x.softening), visit("inSituOpening", x.inSituOpening), visit("inSituSlip", x.inSituSlip);
 }
 
 template <class T, class Visit, Only<T, MotionGroup> = 0> void forEachField(T& x, Visit&& visit)
@@ -95,6 +96,12 @@ template <class T, class Visit, Only<T, Accounts> = 0> void forEachField(T& x, V
 	visit("scaling", x.scaling), visit("released", x.released);
 }
 
+template <class T, class Visit, Only<T, FurtherAccounts> = 0> void forEachField(T& x, Visit&& visit)
+{
+	visit("viscous", x.viscous), visit("pendingViscous", x.pendingViscous), visit("incoming", x.incoming), visit("pendingIncoming", x.pendingIncoming);
+	visit("stiffness", x.stiffness), visit("pendingStiffness", x.pendingStiffness), visit("removed", x.removed);
+}
+
 template <class T, class Visit, Only<T, Softened> = 0> void forEachField(T& x, Visit&& visit)
 {
 	visit("k", x.k), visit("opening", x.opening), visit("slipLargest", x.slipLargest), visit("crushing", x.crushing);
@@ -108,12 +115,24 @@ template <class T, class Visit, Only<T, State> = 0> void forEachField(T& x, Visi
 	visit("slipPlastic", x.slipPlastic), visit("uplift", x.uplift), visit("status", x.status), visit("released", x.released);
 	visit("groups", x.groups), visit("rigid", x.rigid), visit("contacts", x.contacts), visit("search", x.search), visit("lostFriction", x.lostFriction);
 	visit("viscosity", x.viscosity), visit("accounts", x.accounts), visit("softened", x.softened);
+	visit("further", x.further);
+}
+
+template <class T, class Visit, Only<T, Dashpot> = 0> void forEachField(T& x, Visit&& visit)
+{
+	visit("node", x.node), visit("boundary", x.boundary), visit("xx", x.xx), visit("xy", x.xy), visit("yy", x.yy);
+}
+
+template <class T, class Visit, Only<T, ViscousBoundary> = 0> void forEachField(T& x, Visit&& visit)
+{
+	visit("name", x.name), visit("times", x.times), visit("incoming", x.incoming);
 }
 
 template <class T, class Visit, Only<T, BlockAssembly> = 0> void forEachField(T& x, Visit&& visit)
 {
 	visit("thickness", x.thickness), visit("plane", x.plane), visit("strain", x.strain);
 	visit("mesh", x.mesh), visit("joints", x.joints), visit("load", x.supports.load), visit("state", x.state), visit("nodalForces", x.forces.nodal);
+	visit("viscous", x.supports.viscous), visit("dashpots", x.supports.dashpots), visit("stiffnessDamping", x.supports.stiffnessDamping);
 }
 
 } // namespace blocks

@@ -41,6 +41,10 @@ namespace {
 		{
 			if (!s.empty()) forEachField(s, *this);
 		}
+		void operator()(const char*, const FurtherAccounts& x)
+		{
+			if (x.any()) forEachField(x, *this);
+		}
 		template <class T> auto operator()(const char*, const T& x) -> decltype(forEachField(x, std::declval<Hash&>())) { forEachField(x, *this); }
 	};
 

@@ -34,6 +34,9 @@ struct Joints {
 	std::vector<Segment> segments; ///< sorted by pair
 	std::vector<Pair>    pairs;
 
+	// ---- what stresses in situ have opened and slid the two points by without displacement; empty if there are none [m]
+	std::vector<std::array<Real, 2>> inSituOpening, inSituSlip;
+
 	// ---- properties: few kinds, many joints
 	std::vector<JointParams>     kinds { JointParams() }; ///< the first stands for joints without properties yet
 	std::vector<int>             kind;                    ///< of each joint

@@ -17,6 +17,16 @@ struct Accounts {
 	ReleasedWork released; ///< of groups that are no more
 };
 
+/// Energies of scenes that have what they are of; others keep the fingerprints that they had before. Booked as in Accounts [J].
+struct FurtherAccounts {
+	Real viscous = 0, pendingViscous = 0;     ///< that waves took out through viscous boundaries
+	Real incoming = 0, pendingIncoming = 0;   ///< that incoming waves brought in there
+	Real stiffness = 0, pendingStiffness = 0; ///< dissipated by damping proportional to stiffness
+	Real removed = 0;                         ///< that blocks held when they were removed
+
+	bool any() const { return viscous != 0 || incoming != 0 || stiffness != 0 || removed != 0 || pendingViscous != 0 || pendingStiffness != 0; }
+};
+
 /// What contact points of joints that soften remember besides, as columns; empty where all joints are brittle.
 struct Softened {
 	std::vector<Real> k, opening, slipLargest, crushing; ///< see SofteningState
@@ -66,8 +76,9 @@ struct State {
 	ContactMemory            search;
 	Real                     lostFriction = 0; ///< dissipated by contacts that are no more [J]
 
-	Real     viscosity = 0; ///< c of the adaptive damping, what it has come to [1/s]
-	Accounts accounts;
+	Real            viscosity = 0; ///< c of the adaptive damping, what it has come to [1/s]
+	Accounts        accounts;
+	FurtherAccounts further;
 
 	JointState joint(int point) const { return { slipPlastic[point], uplift[point], status[point] }; }
 	void       setJoint(int point, const JointState& s) { slipPlastic[point] = s.slipPlastic, uplift[point] = s.uplift, status[point] = s.status; }

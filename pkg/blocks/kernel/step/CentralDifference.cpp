@@ -2,6 +2,8 @@
 #include <blocks/kernel/Wide.hpp>
 #include <blocks/kernel/step/CentralDifference.hpp>
 #include <blocks/kernel/step/Largest.hpp>
+#include <blocks/kernel/step/StiffnessDamping.hpp>
+#include <blocks/kernel/step/ViscousBoundaries.hpp>
 #include <cmath>
 
 namespace blocks {
@@ -198,13 +200,25 @@ namespace {
 			a.state.velocity[dof / 2][dof % 2] = g.velocity;
 	}
 
+	/// What damping proportional to stiffness has dissipated up to the time of the forces.
+	void bookStiffnessDamping(BlockAssembly& a, Real dt)
+	{
+		FurtherAccounts& booked = a.state.further;
+		booked.stiffness += booked.pendingStiffness - stiffnessDampingPower(a) * dt / 2;
+		booked.pendingStiffness = 0;
+	}
+
 } // namespace
 
 StepWork integrate(BlockAssembly& a, const Damping& damping, Real dt, Real time, bool account, int threads)
 {
 	Real& c = a.state.viscosity;
 	if (damping.kind == Damping::Kind::adaptive && c == 0) c = Damping::floorFraction / dt;
-	StepWork work;
+	StepWork    work;
+	ViscousStep viscous;
+	viscous.begin(a);
+	const bool strains = account && a.supports.stiffnessDamping > 0;
+	if (strains) bookStiffnessDamping(a, dt);
 	for (MotionGroup& g : a.state.groups)
 		moveGroup(g, a, damping, dt, time, work);
 
@@ -215,7 +229,9 @@ StepWork integrate(BlockAssembly& a, const Damping& damping, Real dt, Real time,
 	};
 	Odometer&  odometer = a.contacts.odometer;
 	const bool follow   = a.contacts.started && !a.contacts.strangers;
-	const Sums sums     = advanceAll(advanceOf(damping.kind, account), arrays, 2 * a.nodeCount(), rates, follow, threads);
+	Sums       sums     = advanceAll(advanceOf(damping.kind, account), arrays, 2 * a.nodeCount(), rates, follow, threads);
+	if (!a.supports.dashpots.empty()) sums.fastest = std::max(sums.fastest, viscous.end(a, dt, time, work));
+	if (strains) a.state.further.pendingStiffness = -stiffnessDampingPower(a) * dt / 2;
 	if (follow) odometer.fastest = sums.fastest, odometer.unseen += sums.fastest * dt, odometer.sinceLook += sums.fastest * dt;
 	if (damping.kind == Damping::Kind::adaptive) c = Damping::adapted(c, c * sums.viscousPower, sums.kineticTurn / dt, dt);
 	work.dampingBefore += sums.dampingBefore * dt;

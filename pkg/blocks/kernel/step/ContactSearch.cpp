@@ -5,7 +5,6 @@
 #include <blocks/kernel/step/Contacts.hpp>
 #include <blocks/kernel/step/Largest.hpp>
 #include <limits>
-#include <numeric>
 
 namespace blocks {
 namespace {
@@ -203,6 +202,7 @@ namespace {
 		if (near) {
 			at->area   = g.area;
 			at->uplift = (a.state.uplift[2 * joint] + a.state.uplift[2 * joint + 1]) / 2;
+			if (const auto& start = a.joints.inSituOpening; !start.empty()) at->uplift -= (start[joint][0] + start[joint][1]) / 2;
 		}
 		for (int k : { 0, 1 }) {
 			const int p = 2 * joint + k;
@@ -258,27 +258,35 @@ namespace {
 		return box;
 	}
 
+	/// Blocks that have not been taken out.
+	std::vector<int> presentBlocks(const BlockAssembly& a)
+	{
+		std::vector<int> list;
+		for (int b = 0; b < a.blockCount(); ++b)
+			if (!a.isRemoved(b)) list.push_back(b);
+		return list;
+	}
+
 	using BoxOf = CGAL::Box_intersection_d::Box_with_handle_d<Real, 2, const int*, CGAL::Box_intersection_d::ID_EXPLICIT>;
 
 	/// Which of `some` blocks may come near which other one within a step, in order. mean: velocities of all blocks [m/s].
 	std::vector<std::array<int, 2>> onTheWay(const BlockAssembly& a, const std::vector<int>& some, const std::vector<Vec2>& mean, Real dt)
 	{
-		std::vector<int> every(a.blockCount());
-		std::iota(every.begin(), every.end(), 0);
-		auto boxes = [&](const std::vector<int>& blocks, bool ofPoints) {
-			std::vector<BoxOf> list;
-			list.reserve(blocks.size());
-			for (const int& block : blocks) {
-				Box box = ofPoints ? sweptBox(a, block, Vec2::Zero(), dt) : boxOf(a, block);
-				if (!ofPoints) {
-					const Vec2 way = dt * mean[block].cwiseAbs();
-					box            = { box.low - way, box.high + way };
-				}
-				if (!box.low.allFinite() || !box.high.allFinite()) continue; // the watch will tell
-				Real low[] = { box.low.x(), box.low.y() }, high[] = { box.high.x(), box.high.y() };
-				list.emplace_back(low, high, &block);
-			}
-			return list;
+		const std::vector<int> every = presentBlocks(a);
+		auto                   boxes = [&](const std::vector<int>& blocks, bool ofPoints) {
+                        std::vector<BoxOf> list;
+                        list.reserve(blocks.size());
+                        for (const int& block : blocks) {
+                                Box box = ofPoints ? sweptBox(a, block, Vec2::Zero(), dt) : boxOf(a, block);
+                                if (!ofPoints) {
+                                        const Vec2 way = dt * mean[block].cwiseAbs();
+                                        box            = { box.low - way, box.high + way };
+                                }
+                                if (!box.low.allFinite() || !box.high.allFinite()) continue; // the watch will tell
+                                Real low[] = { box.low.x(), box.low.y() }, high[] = { box.high.x(), box.high.y() };
+                                list.emplace_back(low, high, &block);
+                        }
+                        return list;
 		};
 		std::vector<BoxOf>              fast = boxes(some, true), all = boxes(every, false);
 		std::vector<std::array<int, 2>> found;
@@ -372,18 +380,17 @@ namespace {
 	/// Pairs of blocks, not bonded, of which one has moved, and whose boxes are close enough for a contact before the next look.
 	std::vector<std::array<int, 2>> newNeighbours(const BlockAssembly& a, const std::vector<int>& moved)
 	{
-		std::vector<int> every(a.blockCount());
-		std::iota(every.begin(), every.end(), 0);
-		auto boxes = [&](const std::vector<int>& blocks) {
-			std::vector<BoxOf> list;
-			list.reserve(blocks.size());
-			for (const int& block : blocks) {
-				const Box  box    = boxOf(a, block);
-				const Real margin = 2 * limitOf(a.contacts, block);
-				Real       low[] = { box.low.x() - margin, box.low.y() - margin }, high[] = { box.high.x() + margin, box.high.y() + margin };
-				list.emplace_back(low, high, &block);
-			}
-			return list;
+		const std::vector<int> every = presentBlocks(a);
+		auto                   boxes = [&](const std::vector<int>& blocks) {
+                        std::vector<BoxOf> list;
+                        list.reserve(blocks.size());
+                        for (const int& block : blocks) {
+                                const Box  box    = boxOf(a, block);
+                                const Real margin = 2 * limitOf(a.contacts, block);
+                                Real       low[] = { box.low.x() - margin, box.low.y() - margin }, high[] = { box.high.x() + margin, box.high.y() + margin };
+                                list.emplace_back(low, high, &block);
+                        }
+                        return list;
 		};
 		std::vector<BoxOf>              some = boxes(moved), all = boxes(every);
 		std::vector<std::array<int, 2>> found;
@@ -404,7 +411,7 @@ namespace {
 		FreeContacts&    f = a.contacts;
 		std::vector<int> moved;
 		a.state.search.mayGo = std::numeric_limits<Real>::infinity();
-		for (int b = 0; b < a.blockCount(); ++b) {
+		for (int b : presentBlocks(a)) {
 			const Real limit = limitOf(f, b), went = std::sqrt(farthestMove(a, b, a.state.search.detectedAt));
 			if (everything || !(went <= lookAgain * limit)) {
 				moved.push_back(b);

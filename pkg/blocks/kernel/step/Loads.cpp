@@ -22,6 +22,8 @@ void addGravity(BlockAssembly& a, const Vec2& g)
 		r.load += r.mass * g;
 }
 
+void addLoad(BlockAssembly& a, int node, const Vec2& force) { loads(a)[node] += force; }
+
 void addTraction(BlockAssembly& a, int edge, const Vec2& traction)
 {
 	require(edge >= 0 && edge < int(a.mesh.edgeNodes.size()), "a traction needs the index of a boundary edge", edge);

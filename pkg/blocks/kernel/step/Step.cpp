@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
 #include <blocks/kernel/step/Step.hpp>
+#include <blocks/kernel/step/StiffnessDamping.hpp>
 #include <blocks/kernel/step/ZoneForces.hpp>
 #include <cassert>
 
@@ -52,16 +53,20 @@ void sumForces(BlockAssembly& a, bool account, int threads)
 	assert(threads >= 1);
 	if (account) a.forces.zoneEnergy.assign(a.blockCount(), 0);
 	Real* const energy = account ? a.forces.zoneEnergy.data() : nullptr;
-	if (threads == 1) return sumRange(a, 0, a.blockCount(), energy);
+	if (threads == 1)
+		sumRange(a, 0, a.blockCount(), energy);
+	else {
 #pragma omp parallel for schedule(static) num_threads(threads)
-	for (int part = 0; part < threads; ++part) { // blocks with about equal numbers of zones
-		auto begin = [&](int p) {
-			const auto& zone = a.mesh.firstZone;
-			return p == threads ? a.blockCount()
-					    : int(std::lower_bound(zone.begin(), zone.end() - 1, long(a.zoneCount()) * p / threads) - zone.begin());
-		};
-		sumRange(a, begin(part), begin(part + 1), energy);
+		for (int part = 0; part < threads; ++part) { // blocks with about equal numbers of zones
+			auto begin = [&](int p) {
+				const auto& zone = a.mesh.firstZone;
+				return p == threads ? a.blockCount()
+						    : int(std::lower_bound(zone.begin(), zone.end() - 1, long(a.zoneCount()) * p / threads) - zone.begin());
+			};
+			sumRange(a, begin(part), begin(part + 1), energy);
+		}
 	}
+	if (a.supports.stiffnessDamping > 0) addStiffnessDamping(a, threads);
 }
 
 } // namespace blocks

@@ -12,18 +12,30 @@ namespace {
 		return std::sqrt((square + std::sqrt(std::max(Real(0), square * square - 4 * det * det))) / 2);
 	}
 
+	/// Largest absolute principal value of the stress that a zone has in situ [Pa].
+	Real inSituStress(const BlockAssembly& a, int zone, const Moduli& m)
+	{
+		const StrainColumns& e = a.mesh.inSitu;
+		if (e.empty()) return 0;
+		const ZoneStress t = zoneStress(m, { e.xx[zone], e.yy[zone], e.xy[zone], 1, 0 });
+		return std::abs(t.sxx + t.syy) / 2 + std::hypot((t.sxx - t.syy) / 2, t.sxy);
+	}
+
 	void addZone(const BlockAssembly& a, int zone, const Moduli& m, std::vector<Real>& stiffness)
 	{
-		const ZoneGradients s    = a.mesh.zoneGradient[zone];
-		const Vec2          g[3] = { { -s.g1x - s.g2x, -s.g1y - s.g2y }, { s.g1x, s.g1y }, { s.g2x, s.g2y } };
+		const Real          geometric = 2 * inSituStress(a, zone, m); // see nodalStiffness
+		const ZoneGradients s         = a.mesh.zoneGradient[zone];
+		const Vec2          g[3]      = { { -s.g1x - s.g2x, -s.g1y - s.g2y }, { s.g1x, s.g1y }, { s.g2x, s.g2y } };
 		for (int i = 0; i < 3; ++i)
 			for (int j = 0; j < 3; ++j) { // K_ij = V (lambda g_i g_j^T + mu (g_j g_i^T + g_i.g_j 1))
 				const Real dot = m.mu * g[i].dot(g[j]), mixed = m.lambda + m.mu;
-				stiffness[a.mesh.zoneNodes[zone][i]] += a.mesh.zoneVolume[zone]
-					* spectralNorm(mixed * g[i].x() * g[j].x() + dot,
-				                       m.lambda * g[i].x() * g[j].y() + m.mu * g[j].x() * g[i].y(),
-				                       m.lambda * g[i].y() * g[j].x() + m.mu * g[j].y() * g[i].x(),
-				                       mixed * g[i].y() * g[j].y() + dot);
+				const Real elastic = spectralNorm(
+					mixed * g[i].x() * g[j].x() + dot,
+					m.lambda * g[i].x() * g[j].y() + m.mu * g[j].x() * g[i].y(),
+					m.lambda * g[i].y() * g[j].x() + m.mu * g[j].y() * g[i].x(),
+					mixed * g[i].y() * g[j].y() + dot);
+				const Real turning = geometric > 0 ? geometric * g[i].norm() * g[j].norm() : 0;
+				stiffness[a.mesh.zoneNodes[zone][i]] += a.mesh.zoneVolume[zone] * (elastic + turning);
 			}
 	}
 
@@ -83,7 +95,8 @@ Real stableTimeStep(const BlockAssembly& a, const std::vector<Real>& stiffness, 
 	Real least = std::numeric_limits<Real>::infinity();
 	for (int n = 0; n < a.nodeCount(); ++n)
 		if (stiffness[n] > 0 && inertia[n] > 0 && !(driven[2 * n] && driven[2 * n + 1])) least = std::min(least, inertia[n] / stiffness[n]);
-	return 2 * std::sqrt(least);
+	const Real limit = 2 * std::sqrt(least), beta = a.supports.stiffnessDamping;
+	return beta > 0 && std::isfinite(limit) ? limit * limit / (std::hypot(beta, limit) + beta) : limit;
 }
 
 void scaleInertia(BlockAssembly& a, const std::vector<Real>& stiffness, Real dt, Real safety)

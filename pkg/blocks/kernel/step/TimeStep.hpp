@@ -8,7 +8,8 @@ namespace blocks {
 /// K_n [N/m]: the sum over all grid points j of the norm of the 2x2 block K_nj of the stiffness matrix, zones and joints.
 /// The largest eigenvalue of M^-1 K is at most max K_n / m_n (block Gershgorin), whatever way the blocks have turned, because
 /// the spectral norm of a block does not change with rotation. The paper's sum of diagonal terms is no such bound:
-/// it overestimates the stable step by 4-49 %. Dilation adds its normal force per slip to a joint's stiffness.
+/// it overestimates the stable step by 4-49 %. Dilation adds its normal force per slip to a joint's stiffness. Stresses in situ turn with their zones:
+/// by R T with |dR| <= |dF| / sqrt(2), and by kappa (see zoneForcesOfAnyAxes) with as much again, so that they add at most 2 |T| V |g_n| |g_j|.
 std::vector<Real> nodalStiffness(const BlockAssembly&);
 
 /// The zones' share of it, which never changes, and all of it from that.
@@ -16,6 +17,14 @@ std::vector<Real> zoneStiffness(const BlockAssembly&);
 std::vector<Real> nodalStiffness(const BlockAssembly&, std::vector<Real> ofZones);
 
 /// min 2 sqrt(m / K) over the grid points that can move, for the true masses or the scaled ones [s].
+///
+/// Viscous boundaries do not lower it. Their force is taken at the mean of the velocities before and after, so that
+///   E = v.M v / 2 + u_n+1.K u_n / 2  falls by  dt w.C w,  w the mean velocity,
+/// in every step, and E is positive as long as M - dt^2 K / 4 is.
+///
+/// Damping proportional to stiffness does. Its force is that of the velocity before, and C v_before = C w - C (v_after - v_before) / 2: it is a centred
+/// damping with the masses M - dt C / 2. Stable is what leaves M - dt C / 2 - dt^2 K / 4 positive, with C <= beta K
+///   dt^2 + 2 beta dt < limit^2,  so  dt < limit^2 / (sqrt(beta^2 + limit^2) + beta).
 Real stableTimeStep(const BlockAssembly&, const std::vector<Real>& stiffness, const std::vector<Real>& inertia);
 
 /// Stiffness for the step of a scene in which blocks collide: springs of free contacts count four times. A spring that is there from the start keeps

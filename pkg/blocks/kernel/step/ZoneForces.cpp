@@ -14,20 +14,29 @@ namespace {
 	};
 
 	/// The arithmetic proper, without indirections.
-	template <Strain kind, bool energy>
+	template <Strain kind, bool energy, bool inSitu = false>
 	inline __attribute__((always_inline)) void forcesOfBatch(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m)
 	{
-		const Moduli moduli = m;
-		const Real * g1x = mesh.zoneGradient.g1x.data() + first, *g1y = mesh.zoneGradient.g1y.data() + first;
-		const Real * g2x = mesh.zoneGradient.g2x.data() + first, *g2y = mesh.zoneGradient.g2y.data() + first;
-		const Real*  volume = mesh.zoneVolume.data() + first;
+		const Moduli                 moduli = m;
+		const Real *                 g1x = mesh.zoneGradient.g1x.data() + first, *g1y = mesh.zoneGradient.g1y.data() + first;
+		const Real *                 g2x = mesh.zoneGradient.g2x.data() + first, *g2y = mesh.zoneGradient.g2y.data() + first;
+		const Real*                  volume  = mesh.zoneVolume.data() + first;
+		[[maybe_unused]] const Real *startXX = nullptr, *startYY = nullptr, *startXY = nullptr;
+		if constexpr (inSitu) startXX = mesh.inSitu.xx.data() + first, startYY = mesh.inSitu.yy.data() + first, startXY = mesh.inSitu.xy.data() + first;
 #pragma GCC ivdep
 		for (int i = 0; i < count; ++i) {
 			const ZoneGradients g { g1x[i], g1y[i], g2x[i], g2y[i] };
 			const ZoneStrain    e = zoneStrain<kind>(g, b.px[i], b.py[i], b.qx[i], b.qy[i]);
-			const ZoneForces    f = zoneForces<kind>(g, volume[i], zoneStress(moduli, e), e);
-			b.f1x[i] = f.f1x, b.f1y[i] = f.f1y, b.f2x[i] = f.f2x, b.f2y[i] = f.f2y;
-			if constexpr (energy) b.energy[i] = volume[i] * zoneEnergyDensity(moduli, e);
+			if constexpr (inSitu) {
+				const ZoneStrain all { e.exx + startXX[i], e.eyy + startYY[i], e.exy + startXY[i], e.c, e.s };
+				const ZoneForces f = zoneForcesOfAnyAxes<kind>(g, volume[i], zoneStress(moduli, all), e);
+				b.f1x[i] = f.f1x, b.f1y[i] = f.f1y, b.f2x[i] = f.f2x, b.f2y[i] = f.f2y;
+				if constexpr (energy) b.energy[i] = volume[i] * zoneEnergyDensity(moduli, all);
+			} else {
+				const ZoneForces f = zoneForces<kind>(g, volume[i], zoneStress(moduli, e), e);
+				b.f1x[i] = f.f1x, b.f1y[i] = f.f1y, b.f2x[i] = f.f2x, b.f2y[i] = f.f2y;
+				if constexpr (energy) b.energy[i] = volume[i] * zoneEnergyDensity(moduli, e);
+			}
 		}
 	}
 	WIDE void largeStrain(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m)
@@ -45,6 +54,14 @@ namespace {
 	WIDE void smallWithEnergy(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m)
 	{
 		forcesOfBatch<Strain::small, true>(b, mesh, first, count, m);
+	}
+	WIDE void largeInSitu(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m)
+	{
+		forcesOfBatch<Strain::large, true, true>(b, mesh, first, count, m);
+	}
+	WIDE void smallInSitu(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m)
+	{
+		forcesOfBatch<Strain::small, true, true>(b, mesh, first, count, m);
 	}
 	using Kernel = void (*)(Batch&, const Mesh&, int, int, const Moduli&);
 
@@ -126,8 +143,9 @@ void addZoneForces(const BlockAssembly& a, int first, int last, Vec2* force, Rea
 	const Real*  u     = a.state.displacement.data()->data();
 	Real*        f     = force->data();
 	const bool   large = a.strain == Strain::large;
-	const Kernel law   = energy ? (large ? largeWithEnergy : smallWithEnergy) : (large ? largeStrain : smallStrain);
-	const auto   isFan = [&](int block) { return mesh.isFan[block] && mesh.firstZone[block + 1] - mesh.firstZone[block] <= zoneBatch; };
+	Kernel       law   = energy ? (large ? largeWithEnergy : smallWithEnergy) : (large ? largeStrain : smallStrain);
+	if (!mesh.inSitu.empty()) law = large ? largeInSitu : smallInSitu;
+	const auto isFan = [&](int block) { return mesh.isFan[block] && mesh.firstZone[block + 1] - mesh.firstZone[block] <= zoneBatch; };
 	for (int next; first < last; first = next) {
 		next = first + 1;
 		if (isFan(first)) {
@@ -148,14 +166,26 @@ ZoneStrain strainOf(const BlockAssembly& a, int zone)
 	return a.strain == Strain::large ? zoneStrain<Strain::large>(g, p.x(), p.y(), q.x(), q.y()) : zoneStrain<Strain::small>(g, p.x(), p.y(), q.x(), q.y());
 }
 
+ZoneStrain elasticStrainOf(const BlockAssembly& a, int zone)
+{
+	const ZoneStrain     e     = strainOf(a, zone);
+	const StrainColumns& start = a.mesh.inSitu;
+	if (start.empty()) return e;
+	return { e.exx + start.xx[zone], e.eyy + start.yy[zone], e.exy + start.xy[zone], e.c, e.s };
+}
+
 ZoneStress cauchyStress(const BlockAssembly& a, int block, int zone)
 {
 	const ZoneStrain e = strainOf(a, zone);
-	const ZoneStress t = zoneStress(moduliOf(a, block), e);
+	const ZoneStress t = zoneStress(moduliOf(a, block), elasticStrainOf(a, zone));
 	if (a.strain == Strain::small) return t;
 	// sigma = P F^T / J = R (t U) R^T / J, with U = 1 + e; t and U have the same principal axes, so t U is symmetric
 	const Real uxx = 1 + e.exx, uyy = 1 + e.eyy, uxy = e.exy, jacobian = uxx * uyy - uxy * uxy;
-	const Real kxx = (t.sxx * uxx + t.sxy * uxy) / jacobian, kyy = (t.sxy * uxy + t.syy * uyy) / jacobian, kxy = (t.sxx * uxy + t.sxy * uyy) / jacobian;
+	Real       kxx = (t.sxx * uxx + t.sxy * uxy) / jacobian, kyy = (t.sxy * uxy + t.syy * uyy) / jacobian, kxy = (t.sxx * uxy + t.sxy * uyy) / jacobian;
+	if (!a.mesh.inSitu.empty()) { // other axes: see zoneForcesOfAnyAxes
+		const Real kappa = ((t.sxx - t.syy) * uxy - t.sxy * (uxx - uyy)) / (uxx + uyy) / jacobian;
+		kxx -= kappa * uxy, kyy += kappa * uxy, kxy -= kappa * uyy;
+	}
 	const Real c = e.c, s = e.s;
 	return { c * c * kxx - 2 * c * s * kxy + s * s * kyy, s * s * kxx + 2 * c * s * kxy + c * c * kyy, c * s * (kxx - kyy) + (c * c - s * s) * kxy };
 }

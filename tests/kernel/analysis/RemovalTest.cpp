@@ -1,0 +1,153 @@
+// yade-blocks, GPL-2.0-or-later
+#include <Specimens.hpp>
+#include <blocks/kernel/analysis/Removal.hpp>
+#include <blocks/kernel/step/InSitu.hpp>
+#include <blocks/kernel/step/ViscousBoundaries.hpp>
+
+using namespace specimens;
+
+namespace {
+
+BlockAssembly tower(int bricks)
+{
+	BlockAssembly a = column(bricks, 0.8, 0.5, 2, 1, stone(), elasticJoint(5e9, 2e9), 0.4);
+	a.addGroup(driven("foot", dofs(a, 1, [](const Vec2& x) { return x.y() == 0; }), 0));
+	addGravity(a, { 0.5, -9.81 });
+	return a;
+}
+
+void run(BlockAssembly& a, Real dt, int steps, Real alpha = 0.3)
+{
+	Damping local;
+	local.alpha = alpha;
+	for (int i = 0; i < steps; ++i) {
+		blocks::computeForces(a, Brittle {}, dt, true);
+		integrate(a, local, dt, i * dt, true);
+	}
+}
+
+} // namespace
+
+TEST(Removal, TheRestIsAsIfTheyHadNeverBeenThere)
+{
+	BlockAssembly all = tower(3), two = tower(2);
+	const Real    dt = 0.5 * stableTimeStep(all, nodalStiffness(all), all.state.inertia);
+	run(all, dt, 40);
+	for (int n = 0; n < two.nodeCount(); ++n)
+		two.state.displacement[n] = all.state.displacement[n], two.state.velocity[n] = all.state.velocity[n];
+	removeBlocks(all, { 2 });
+	run(all, dt, 100);
+	run(two, dt, 100);
+	Real most = 0;
+	for (int n = 0; n < two.nodeCount(); ++n) {
+		most = std::max(most, two.state.displacement[n].norm());
+		EXPECT_EQ(all.state.displacement[n], two.state.displacement[n]);
+		EXPECT_EQ(all.state.velocity[n], two.state.velocity[n]);
+	}
+	EXPECT_GT(most, 1e-8);
+	for (int n = two.nodeCount(); n < all.nodeCount(); ++n)
+		EXPECT_TRUE(all.state.displacement[n].isZero(0) && all.state.velocity[n].isZero(0) && all.forces.nodal[n].isZero(0));
+	EXPECT_EQ(stableTimeStep(all, nodalStiffness(all), all.state.inertia), stableTimeStep(two, nodalStiffness(two), two.state.inertia));
+	addGravity(all, { 0, -1 });
+	EXPECT_TRUE(all.supports.load.back().isZero(0));
+}
+
+TEST(Removal, AccountsSayWhatWasTakenOut)
+{
+	// In situ, at rest: the zones' and the joints' energy of the block. Then the balance goes on: small strain, so that it is exact but for turning frames.
+	BlockAssembly a = voronoi(3, 2, 5, 4, stone(), elasticJoint(5e9, 2e9), 0.7);
+	a.strain        = Strain::small;
+	setInSitu(a, { { -2e6, -3e6, 0.7e6 }, {}, 0 });
+	a.addGroup(driven("edge x", dofs(a, 0, [](const Vec2& x) { return x.x() < 1e-9 || x.x() > 3 - 1e-9 || x.y() < 1e-9 || x.y() > 2 - 1e-9; }), 0));
+	a.addGroup(driven("edge y", dofs(a, 1, [](const Vec2& x) { return x.x() < 1e-9 || x.x() > 3 - 1e-9 || x.y() < 1e-9 || x.y() > 2 - 1e-9; }), 0));
+	addGravity(a, { 0, -9.81 }); // out of balance a little
+	int inner = -1;
+	for (int b = 0; b < a.blockCount(); ++b)
+		if ((a.centroid(b) - Vec2(1.5, 1)).norm() < 0.4) inner = b;
+	ASSERT_GE(inner, 0);
+	blocks::computeForces(a, Brittle {}, 0, true);
+	Real held = 0;
+	for (int z = a.mesh.firstZone[inner]; z < a.mesh.firstZone[inner + 1]; ++z)
+		held += a.mesh.zoneVolume[z] * zoneEnergyDensity(planeModuli(20e9, 0.2, Plane::strain), elasticStrainOf(a, z));
+	for (int i = 0; i < a.joints.count(); ++i)
+		for (int p : { 2 * i, 2 * i + 1 })
+			if (a.joints.segments[i].block[0] == inner || a.joints.segments[i].block[1] == inner)
+				held += a.joints.segments[i].area * blocks::storedEnergy(a.joints.of(i), a.state.sigma[p], a.state.tau[p]);
+	const Real before = specimens::storedEnergy(a);
+	removeBlocks(a, { inner });
+	EXPECT_NEAR(a.state.further.removed, held, 1e-10 * before);
+	EXPECT_NEAR(specimens::storedEnergy(a) + a.state.further.removed, before, 1e-10 * before);
+
+	const Real dt = 0.5 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
+	Damping    local;
+	Real       booked = 0, pending = 0, worst = 0;
+	for (int i = 0; i < 2000; ++i) {
+		blocks::computeForces(a, Brittle {}, dt, true);
+		const Real     stored = specimens::storedEnergy(a), loads = loadWork(a);
+		const StepWork w = integrate(a, local, dt, i * dt, true);
+		booked += pending + w.dampingBefore;
+		pending         = w.dampingAfter;
+		const auto& acc = a.state.accounts;
+		worst           = std::max(
+                        worst, std::abs(stored + w.kinetic + booked + acc.friction + acc.fracture + a.state.further.removed - groupWork(a) - loads - before));
+	}
+	EXPECT_GT(booked, 0.01 * held); // the hole came to rest
+	EXPECT_LT(unbalancedRatio(a), 1e-6);
+	EXPECT_LT(worst, 1e-5 * before);
+}
+
+TEST(Removal, ContactsAreForgotten)
+{
+	// Three dry bricks; without the middle one, the upper falls freely through where it was: v = g t, half a step ahead, until it meets the lowest.
+	JointParams dry = elasticJoint(5e9, 2e9);
+	dry.tension = dry.cohesion = 0;
+	BlockAssembly a            = column(3, 0.8, 0.5, 1, 1, stone(), dry, 0.4);
+	for (int i = 0; i < a.joints.count(); ++i)
+		a.setJoints(i, i + 1, dry, Joint::unbonded);
+	a.joints.ofMaterials = { a.addKind(neverBonded(dry)) };
+	a.addGroup(driven("foot", dofs(a, 1, [](const Vec2& x) { return x.y() == 0; }), 0));
+	addGravity(a, { 0, -9.81 });
+	setGeneralContact(a, true);
+	const Real dt = 0.3 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
+	run(a, dt, 50);
+	EXPECT_FALSE(a.contacts.order.empty());
+	removeBlocks(a, { 1 });
+	const int  node = a.mesh.firstNode[2];
+	const Real mass = a.mesh.mass[node];
+	EXPECT_GT(mass, 0);
+	for (Vec2& v : a.state.velocity)
+		v.setZero();
+	Damping none;
+	none.kind   = Damping::Kind::none;
+	const int n = int(0.25 / dt); // falls 0.3 m
+	for (int i = 0; i < n; ++i) {
+		blocks::computeForces(a, Brittle {}, dt);
+		integrate(a, none, dt, i * dt);
+	}
+	Vec2 momentum = Vec2::Zero();
+	Real all      = 0;
+	for (int k = a.mesh.firstNode[2]; k < a.mesh.firstNode[3]; ++k)
+		momentum += a.mesh.mass[k] * a.state.velocity[k], all += a.mesh.mass[k];
+	EXPECT_NEAR(momentum.y() / all, -9.81 * n * dt, 1e-9);
+	EXPECT_LT(a.centroid(2).y(), 1.25 - 0.29);
+}
+
+TEST(Removal, Refusals)
+{
+	BlockAssembly a = tower(3);
+	expectRefusal([&] { removeBlocks(a, {}); }, { "one block at least" });
+	expectRefusal([&] { removeBlocks(a, { 3 }); }, { "indices of blocks", "3" });
+	expectRefusal([&] { removeBlocks(a, { 0 }); }, { "motion group \"foot\" must be released" });
+	addViscous(a, "top", [&] {
+		std::vector<int> list;
+		for (int n = 0; n < a.nodeCount(); ++n)
+			if (a.mesh.reference[n].y() > 1.5 - 1e-9) list.push_back(n);
+		return list;
+	}());
+	expectRefusal([&] { removeBlocks(a, { 2 }); }, { "viscous boundary \"top\" must be released" });
+	removeBlocks(a, { 1 });
+	expectRefusal([&] { removeBlocks(a, { 1 }); }, { "once only", "1" });
+	BlockAssembly b = column(2, 1, 1, 1, 1, stone(), elasticJoint(1, 1));
+	expectRefusal([&] { removeBlocks(b, { 0, 1 }); }, { "one block must be left" });
+	EXPECT_TRUE(b.mesh.removed.empty());
+}
