@@ -27,4 +27,6 @@ def _requireEngines(O):
 	for end in O.bodies[0], O.bodies[len(O.bodies) - 1]: # insert() puts blocks behind what is there; all bodies may be many
 		if end is not None and type(end.shape).__name__ == "Block":
 			there = ", ".join(kinds) or "nothing"
-			raise RuntimeError(f"O.engines has no BlockLoop and no BlockMotion, so blocks would not move; it has {there}. See yadeblocks.engines.loopList")
+			raise RuntimeError(
+				f"O.engines has no BlockLoop and no BlockMotion, so blocks would not move; it has {there}. See yadeblocks.engines.loopList"
+			)

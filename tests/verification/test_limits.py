@@ -130,4 +130,7 @@ def test_loadingThatIsTooFast(alpha, fast, compare):
 	"""Against 20,000 steps, which 80,000 change by less than 0.3 %."""
 	strength = couplet(20000, alpha)
 	for steps, seen in fast.items():
-		compare('limit: strength in tension, alpha %g, %d steps by 20,000' % (alpha, steps), seen, couplet(steps, alpha) / strength, 0.01, 'as measured')
+		compare(
+			'limit: strength in tension, alpha %g, %d steps by 20,000' % (alpha, steps), seen,
+			couplet(steps, alpha) / strength, 0.01, 'as measured'
+		)

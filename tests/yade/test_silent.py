@@ -249,7 +249,8 @@ def test_settleWaitsForTheRamp():
 	model.insert()
 	O.dt, O.engines = 1e-3, loopList(damping='local', alpha=0.5)
 	steps = loading.settle(model)
-	assert model.groupForce('press') == pytest.approx(-1e4, rel=1e-3) and steps >= 20000 and model.groupForce('low', axis='y') == pytest.approx(1e4, rel=1e-3)
+	assert model.groupForce('press') == pytest.approx(-1e4, rel=1e-3) and steps >= 20000 and model.groupForce('low', axis='y'
+															) == pytest.approx(1e4, rel=1e-3)
 	assert len(O.engines) == 2
 
 
