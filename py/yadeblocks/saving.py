@@ -2,8 +2,10 @@
 """O.save and O.load for scenes of blocks: whole files or none, and damaged ones are refused by name, in every format.
 
 Behind what YADE writes O.save puts a seal, a checksum over all of it, in a form that YADE and other programs skip: a comment in XML, a member of its own
-in .gz and .bz2, bytes behind the archive else. A scene that a PyRunner saves goes on with the same bits. O.load looks at it first: one changed byte anywhere is found, also within the seal. A file without one, of
-a session without yadeblocks, must at least be a whole compressed or XML file; the rest is as YADE does it."""
+in .gz and .bz2, bytes behind the archive else. O.load looks at it first: one changed byte anywhere is found, also within the seal. A file without one, of
+a session without yadeblocks, must at least be a whole compressed or XML file; the rest is as YADE does it.
+
+What a PyRunner saves within a step goes on with the same bits, or is refused."""
 import bz2
 import errno
 import gzip
