@@ -74,8 +74,9 @@ def ensure(yade):
 	elif built and os.path.realpath(built) != os.path.realpath(path):
 		print('yadeblocks: YADE has loaded %s already, %s is not used' % (path, built), file=sys.stderr)
 	publish(yade)
-	from . import _calls, saving
+	from . import _calls, _running, saving
 	_calls.install(yade.wrapper)
+	_running.install(yade.wrapper)
 	saving.install()
 
 

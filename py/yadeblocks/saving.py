@@ -3,7 +3,9 @@
 
 Behind what YADE writes O.save puts a seal, a checksum over all of it, in a form that YADE and other programs skip: a comment in XML, a member of its own
 in .gz and .bz2, bytes behind the archive else. O.load looks at it first: one changed byte anywhere is found, also within the seal. A file without one, of
-a session without yadeblocks, must at least be a whole compressed or XML file; the rest is as YADE does it."""
+a session without yadeblocks, must at least be a whole compressed or XML file; the rest is as YADE does it.
+
+What a PyRunner saves within a step goes on with the same bits, or is refused."""
 import bz2
 import errno
 import gzip
@@ -120,9 +122,11 @@ def install():
 
 	def saveSealed(self, file, quiet=False):
 		"""Saves the scene, whole or not at all, with a checksum; see yadeblocks.saving. Formats by the name, as in YADE: .yade or .xml, and
-		.gz or .bz2 behind."""
+		.gz or .bz2 behind. Within a step, as by a PyRunner, it must be called behind BlockMotion, and what is saved is the beginning of the next
+		step, or before BlockLoop."""
 		if file.startswith(":memory:"): return save(self, file, quiet)
-		write(file, save)
+		betweenSteps = next((model._betweenSteps for model in _models(self)), lambda save: save())
+		betweenSteps(lambda: write(file, save))
 		saved[:] = [file]
 
 	def loadSealed(self, file, quiet=False):

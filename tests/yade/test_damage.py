@@ -73,6 +73,19 @@ def test_withoutASeal(format, tmp_path):
 	assert checkpoint.sceneModel().fingerprint() == bits
 
 
+@pytest.mark.parametrize('format', formats)
+def test_theOldFileIsNotWrittenInto(format, tmp_path):
+	"""A file is whole at any moment, whenever the program is killed: the new one is another file that takes the old one's name."""
+	file, kept = tmp_path / ('scene.' + format), tmp_path / ('kept.' + format)
+	scene()
+	O.save(str(file))
+	content = file.read_bytes()
+	os.link(file, kept) # the file, by another name
+	O.run(5, True)
+	O.save(str(file))
+	assert kept.read_bytes() == content != file.read_bytes()
+
+
 def test_whereNothingCanBeSaved(tmp_path):
 	scene()
 	with pytest.raises(OSError, match='nowhere'):

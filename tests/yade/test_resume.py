@@ -27,7 +27,7 @@ def test_aPauseIsBetweenTwoSteps():
 	begun, done, paused = [], [], []
 	slow = lambda: begun.append(O.iter) or time.sleep(0.08) # lets go of the interpreter, as engines do
 	O.engines = [recording.runner('slow', slow), recording.runner('done', lambda: done.append(O.iter))]
-	running.run(12, pause=lambda: paused.append((begun[-1], done[-1], O.iter)), every=0.13)
+	running.run(12, pause=lambda: done and paused.append((begun[-1], done[-1], O.iter)), every=0.13)
 	assert len(paused) >= 3 and all(begun == done == now - 1 for begun, done, now in paused), paused
 	assert begun == done == list(range(1, 12)) and O.iter == 12 # a PyRunner leaves out the first step
 

@@ -42,6 +42,44 @@ def test_savedBeforeTheFirstStep(tmp_path):
 	assert differences(state(model()), expected) == []
 
 
+def test_savedByAPyRunner(tmp_path):
+	"""Within a step, behind its motion: loaded it goes on with the same bits. (It moved once more than the one that was saved.)"""
+	__builtins__['keep'] = lambda: O.iter == 50 and O.save(str(tmp_path / 'kept.yade')) # where PyRunner finds it
+	whole = couplet(trackEnergy=True)
+	O.engines += [PyRunner(command='keep()', iterPeriod=1)]
+	O.run(120, True)
+	expected = state(whole)
+	O.load(str(tmp_path / 'kept.yade'))
+	at, when = O.iter, O.time
+	O.run(120 - at, True)
+	assert differences(state(model()), expected) == []
+	assert at == 51 and when == pytest.approx(51 * O.dt, rel=1e-12)
+
+
+@pytest.mark.parametrize('place', [0, -1])
+def test_savedByAPyRunnerBeforeTheMotion(place, tmp_path):
+	"""First of all: the step is done again. Between forces and motion there is no way to go on."""
+	__builtins__['keep'] = lambda: O.iter == 50 and O.save(str(tmp_path / 'kept.yade'))
+	whole = couplet()
+	engines = O.engines
+	engines.insert(place, PyRunner(command='keep()', iterPeriod=1))
+	O.engines = engines
+	if place < 0:
+		with pytest.raises(RuntimeError): # YADE's own, of the command; it shows what was wrong
+			O.run(100, True)
+		with pytest.raises(RuntimeError, match='O.save between the forces and the motion'):
+			O.save(str(tmp_path / 'kept.yade')) # the step has not ended
+		assert os.listdir(tmp_path) == []
+		return
+	O.run(100, True)
+	expected = state(whole)
+	__builtins__['keep'] = lambda: None
+	O.load(str(tmp_path / 'kept.yade'))
+	assert O.iter == 50
+	O.run(100 - O.iter, True)
+	assert differences(state(model()), expected) == []
+
+
 def test_savedInMemory():
 	whole = couplet()
 	O.run(100, True)

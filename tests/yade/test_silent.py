@@ -2,10 +2,11 @@
 """What scripts may do that blocks would not notice, and runs that end wrong: each is refused, or said, in a sentence."""
 import gc
 
+import meshio
 import pytest
 
 from processes import * # noqa: F401 (mounted)
-from yadeblocks import loading
+from yadeblocks import export, loading
 from yadeblocks.engines import loopList
 
 
@@ -21,6 +22,15 @@ def pair(gap=0.0, size=0.1, joints=True, rigid=False, young=1e9, kn=1e11, zones=
 		if rigid: model.addRigid(outline, label)
 		else: model.addRegion(outline, label, zoneSize=zones)
 	if joints: model.bond([JointMat(material1='rock', material2='rock', kn=kn, ks=kn / 2, cohesion=1e6, tension=1e6, frictionAngle=0.5)])
+	return model
+
+
+def oneBlock():
+	O.reset()
+	O.materials.append(BlockMat(label='rock', young=1e9, poisson=0.2, density=2000))
+	model = BlockModel(thickness=1)
+	model.addRegion(rectangle(0, 0, 1, 1), 'rock', zoneSize=0.5)
+	model.bond()
 	return model
 
 
@@ -59,10 +69,41 @@ def thrown(v, start, size=0.1, gap=0.05):
 @pytest.mark.parametrize('v', [20, 40])
 def test_theFirstTouchIsInTime(v):
 	"""Whatever the step at which it starts. The energy is turned over twice, into strain and back: 1 % of that. (A contact that came late made
-	1.13 to 7.5.)"""
-	ratios = [thrown(v, start)[0] for start in (1, 4, 7)]
+	1.11 and 1.88 at 20 m/s, 7.5 at 40.)"""
+	ratios = [thrown(v, start)[0] for start in (1, 5, 8)]
 	assert all(abs(ratio - 1) < 0.02 for ratio in ratios), ratios
 	assert max(ratios) - min(ratios) < 1e-9
+
+
+@pytest.mark.parametrize('start', [3, 8])
+def test_aTouchThatIsTooFastForItsStepIsRefused(start):
+	"""80 m/s are 2.1 mm a step, 8 % of the depth at which the contact is lost. (It made 11.6 and 1.36 of the energy.)"""
+	said(['block 1 nears block 0 at 80 m/s', 'O.dt must not exceed'], lambda: thrown(80, start))
+
+
+def test_rigidBlocksThatWouldFirstTouchDeep():
+	"""Half a metre apart, 0.26 m a step: they would touch first a quarter of a metre deep, if at all. (They went through each other.)"""
+	model = inserted(size=1, gap=0.5, rigid=True)
+	O.engines, O.dt = loopList(contact=True, damping='none', quasiStatic=False, rescueFile='', newton=dict(damping=0)), 1e-4
+	O.run(1, True)
+	O.bodies[1].state.vel = -0.26 / O.dt, 0, 0
+	said(['block 1 nears block 0 at 2600 m/s', 'O.dt must not exceed'], lambda: O.run(20, True))
+
+
+@pytest.mark.parametrize('collider', [[], ['Bo1_Sphere_Aabb'], ['Bo1_Block_Aabb']])
+def test_noColliderIsNeeded(collider):
+	"""BlockContacts finds neighbours itself, whatever collider there is. (Without, or with another Bo1, blocks went through each other.)"""
+	model = pair(gap=1e-3)
+	model.insert()
+	O.engines = engineList([], contact=True, stepper=dict(quasiStatic=False), damping='none', rescueFile='')
+	others = [engine for engine in O.engines if not isinstance(engine, InsertionSortCollider)]
+	O.engines = others[:1] + [InsertionSortCollider([globals()[name]()], verletDist=0) for name in collider] + others[1:]
+	O.run(1, True)
+	model.velocity[model.firstNode[1]:] = -5, 0
+	O.run(3000, True)
+	first = slice(0, model.firstNode[1]), slice(model.firstNode[1], None)
+	middle = [model.position[part, 0].mean() for part in first]
+	assert middle[1] - middle[0] > 0.099 and model.velocity[first[0], 0].mean() < -2 # the blow was passed on
 
 
 @pytest.mark.parametrize('v', [300, 1e4, 1e6])
@@ -129,6 +170,19 @@ def test_theLastStepsAreLookedAt():
 	said(['inside out'], lambda: O.run(1, True))
 
 
+def test_theStateBeforeTheLastStepIsRescued(tmp_path):
+	"""What turns inside out in the very step that was begun well: the beginning of that step is saved."""
+	model = pair()
+	model.drive('corner', [0], 'xy')
+	model.insert()
+	O.engines = loopList(quasiStatic=False, damping='none', rescueFile=str(tmp_path / 'rescued.yade'), watchPeriod=1)
+	O.run(5, True)
+	model.setTarget('corner', 1e5)
+	said(['unstable at step 5', 'inside out', 'of step 5', 'saved as'], lambda: O.run(1, True))
+	O.load(str(tmp_path / 'rescued.yade'))
+	assert O.iter == 5
+
+
 def test_anExcessOfEnergyIsSaid(capfd):
 	"""Two rigid blocks that first touch far within each other: a jump within a step, not a growth."""
 	model = inserted(contact=False)
@@ -141,14 +195,41 @@ def test_anExcessOfEnergyIsSaid(capfd):
 
 @pytest.mark.parametrize('watchPeriod', [1, 10, 100])
 def test_noFalseAlarm(watchPeriod, capfd):
-	"""Gravity that is put on during the run is work of loads from then on."""
+	"""Gravity that is put on during the run, and taken off again bit by bit, is work of loads from then on. (It was an instability, with watchPeriod=1.)"""
 	model = inserted(contact=False)
 	O.engines[-1].watchPeriod = watchPeriod
 	O.run(150, True)
-	model.gravity((0, -9.81))
-	O.run(500, True)
+	for g in [(0, -9.81)] + 15 * [(0, 1)]:
+		model.gravity(g)
+		O.run(11, True)
 	model.gravity((3, 5))
 	O.run(500, True)
+	assert 'from nowhere' not in capfd.readouterr().err
+
+
+def test_energyThatWasThereCounts(capfd):
+	"""A fall that gravity ends where it began: what is left is rounding of what was there."""
+	model = inserted(contact=False)
+	O.engines[-1].watchPeriod = 1
+	O.run(150, True)
+	for g in -9.81, 19.62, -9.81:
+		model.gravity((0, g))
+		O.run(500, True)
+	assert 'from nowhere' not in capfd.readouterr().err
+
+
+@pytest.mark.parametrize('quasiStatic', [True, False])
+def test_aVelocitySetByACallIsNoAlarm(quasiStatic, capfd):
+	"""Grid points that are driven faster from look to look, without damping: work of their group."""
+	model = pair()
+	model.drive('left', nodesWhere(model, lambda x, y: x < 1e-9), 'xy')
+	model.drive('right', nodesWhere(model, lambda x, y: x > 0.2 - 1e-9), 'x')
+	model.insert()
+	O.dt, O.engines = 1e-3, loopList(damping='none', quasiStatic=quasiStatic, rescueFile='', watchPeriod=1)
+	O.run(100, True)
+	for step in range(20):
+		model.setTarget('right', -1e-3 * step)
+		O.run(11, True)
 	assert 'from nowhere' not in capfd.readouterr().err
 
 
@@ -156,7 +237,7 @@ def test_noFalseAlarm(watchPeriod, capfd):
 
 
 def test_settleWaitsForTheRamp():
-	"""A press in its ramp is not at rest, whatever the ratio. (It returned at 0.14 % of the force.)"""
+	"""A press in its ramp is not at rest, whatever the ratio. (It returned after 900 steps at 0.6 % of the force.)"""
 	O.reset()
 	O.materials.append(BlockMat(label='rock', young=1e9, poisson=0.2, density=2000))
 	model = BlockModel(thickness=1)
@@ -164,11 +245,12 @@ def test_settleWaitsForTheRamp():
 	model.addRegion(rectangle(0, 0.1, 0.1, 0.2), 'rock', zoneSize=0.05)
 	model.bond([JointMat(material1='rock', material2='rock', kn=1e11, ks=5e10, cohesion=1e6, tension=1e6, frictionAngle=0.5)])
 	model.drive('low', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
-	model.push('press', nodesWhere(model, lambda x, y: y > 0.2 - 1e-9), 'y', force=-1e4, rampTime=2)
+	model.push('press', nodesWhere(model, lambda x, y: y > 0.2 - 1e-9), 'y', force=-1e4, rampTime=20)
 	model.insert()
 	O.dt, O.engines = 1e-3, loopList(damping='local', alpha=0.5)
 	steps = loading.settle(model)
-	assert steps >= 2000 and model.groupForce('low', axis='y') == pytest.approx(1e4, rel=1e-3)
+	assert model.groupForce('press') == pytest.approx(-1e4, rel=1e-3) and steps >= 20000 and model.groupForce('low', axis='y'
+															) == pytest.approx(1e4, rel=1e-3)
 	assert len(O.engines) == 2
 
 
@@ -189,12 +271,27 @@ def test_settleWithoutJoints():
 	assert tip < 0 and tip == pytest.approx(model.displacement[:, 1].min(), rel=1e-2)
 
 
-def test_aFallIsNoRest():
-	model = pair()
+@pytest.mark.parametrize('blocks', [1, 2])
+def test_aFallIsNoRest(blocks):
+	"""A block without joints was at rest at once."""
+	model = pair() if blocks == 2 else oneBlock()
 	model.gravity((0, -9.81))
 	model.insert()
 	O.dt, O.engines = 1e-5, loopList(damping='none')
 	said(['settle', 'not below'], lambda: loading.settle(model, maxSteps=500))
+
+
+def test_settleDoesNotWait(monkeypatch):
+	"""YADE takes 40 ms to see that a run has ended: looks must not end it. (Every look did.)"""
+	model = pair()
+	model.gravity((0, -9.81))
+	model.drive('left', nodesWhere(model, lambda x, y: x < 1e-9), 'xy')
+	model.insert()
+	O.dt, O.engines = 1e-3, loopList(damping='local', alpha=0.5, rescueFile='')
+	O.run(1, True)
+	runs, run = [], type(O).run
+	monkeypatch.setattr(type(O), 'run', lambda *given, **named: runs.append(given) or run(*given, **named))
+	assert loading.settle(model, period=5) > 100 and len(runs) == 1
 
 
 # ---- what is changed behind the model's back
@@ -280,6 +377,31 @@ def test_engineLists(change, words):
 	said(words, lambda: O.run(5, True))
 
 
+def test_withoutEngines():
+	inserted()
+	O.engines = []
+	said(['O.engines', 'BlockLoop', 'BlockMotion'], lambda: O.run(1, True))
+	said(['O.engines', 'BlockLoop', 'BlockMotion'], O.step)
+
+
+def test_yadesOwnEngines(tmp_path):
+	"""Those that O.engines has when the program begins: YADE aborted."""
+	run = runYade(
+		"""
+from scenes import *
+assert len(O.engines) > 3
+O.materials.append(BlockMat(label='rock', young=1e9, poisson=0.2, density=2000))
+model = BlockModel(thickness=1)
+model.addRegion(rectangle(0, 0, 1, 1), 'rock', zoneSize=1)
+model.bond()
+model.insert()
+try: O.run(1, True)
+except RuntimeError as error: print('said:', error)
+""", cwd=tmp_path
+	)
+	assert run.returncode == 0 and 'said: O.engines has no BlockLoop' in run.stdout, run.stdout + run.stderr
+
+
 def test_spheresBeside():
 	"""Without interactions of blocks, an InteractionLoop of spheres is welcome."""
 	inserted(interactions=False)
@@ -290,7 +412,7 @@ def test_spheresBeside():
 
 def test_noMotion(capfd):
 	inserted()
-	O.engines = O.engines[:1]
+	O.engines = O.engines[:-1]
 	O.run(3, True)
 	assert 'deformable blocks do not move' in capfd.readouterr().err
 
@@ -313,7 +435,7 @@ def test_stressesOfPairsThatWereNeverBonded():
 	assert [(i.phys.sigma, i.phys.tau, i.phys.status) for i in O.interactions if i.isReal] == [([], [], [])]
 
 
-def test_stressesOfASlidingJoint():
+def test_stressesOfASlidingJoint(tmp_path):
 	"""1 MN on a joint that broke and has become a free contact: what stands on it is shown, 1 MN by the area."""
 	O.reset()
 	O.materials.append(BlockMat(label='rock', young=1e10, poisson=0, density=2000))
@@ -328,17 +450,33 @@ def test_stressesOfASlidingJoint():
 	O.dt, O.engines = 1e-3, loopList(contact=True, damping='local', alpha=0.5)
 	O.run(3000, True)
 	assert (model.segmentArea == 0).all() # released
-	for sigma in model.pointSigma, next(iter(O.interactions)).phys.sigma:
+	export.BlocksExport(tmp_path).write(model, 0)
+	exported = meshio.read(tmp_path / 'joints_0000.vtu').cell_data['sigma'][0]
+	for sigma in model.pointSigma, next(iter(O.interactions)).phys.sigma, exported:
 		assert np.mean(sigma) == pytest.approx(-1e6, rel=1e-2)
+
+
+def test_residualCohesionOfAClosedJointWithoutPressure():
+	"""Sheared with its faces held at their distance: sigma is 0, and what holds is the residual cohesion. (It was 0.)"""
+	O.reset()
+	O.materials.append(BlockMat(label='rock', young=1e9, poisson=0, density=2000))
+	model = BlockModel(thickness=1)
+	for y in 0, 1:
+		model.addRegion(rectangle(0, y, 1, y + 1), 'rock', zoneSize=1, zoning='regular')
+	model.bond([JointMat(material1='rock', material2='rock', kn=1e10, ks=1e10, cohesion=1e5, tension=1e6, frictionAngle=0.5, cohesionResidual=3e4)])
+	low, high = np.arange(model.firstNode[1]), np.arange(model.firstNode[1], model.nodeCount)
+	model.drive('low', low, 'xy')
+	model.drive('high', high, 'y')
+	model.drive('shear', high, 'x', velocity=1e-3)
+	model.insert()
+	O.dt, O.engines = 1e-3, loopList(rescueFile='')
+	O.run(100, True)
+	assert (model.pointSigma == 0).all() and (np.abs(model.pointTau) == 3e4).all() and model.groupForce('shear') == pytest.approx(3e4, rel=1e-12)
 
 
 def test_forceOfAGroupAlongTwoAxes():
 	"""A block held in both directions, with a weight of 10 N per kg and a traction sideways of 5 N per kg."""
-	O.reset()
-	O.materials.append(BlockMat(label='rock', young=1e9, poisson=0.2, density=2000))
-	model = BlockModel(thickness=1)
-	model.addRegion(rectangle(0, 0, 1, 1), 'rock', zoneSize=0.5)
-	model.bond()
+	model = oneBlock()
 	model.drive('low', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
 	model.gravity((-5, -10))
 	model.insert()

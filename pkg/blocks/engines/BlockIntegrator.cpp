@@ -91,6 +91,7 @@ void BlockIntegrator::step(BlockModel& model)
 	blocks::StepWork work;
 	if (!a.state.rigid.empty()) work = followRigidBodies(scene, model);
 	work += blocks::move(a, law, scene->dt, scene->time, account, threadsFor(model, ompThreads));
+	movedAt = scene->iter;
 	if (watchPeriod > 0 && scene->stopAtIter == scene->iter + 1) lookAtEnd(model);
 	if (account) {
 		blocks::Accounts& booked = a.state.accounts;
@@ -134,7 +135,8 @@ void BlockIntegrator::stop(BlockModel& model, const blocks::StabilityWatch::Verd
 		model.writeCentroids(scene);
 		model.stiffnessChanged();
 		scene->iter = good;
-		scene->time = watch.goodTime();
+		movedAt = model.forcesAt = -1; // between two steps
+		scene->time              = watch.goodTime();
 		message += "; the last good state, of step " + std::to_string(good) + ", is put back" + rescued();
 	}
 	throw std::runtime_error(message);

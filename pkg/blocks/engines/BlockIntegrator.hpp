@@ -33,6 +33,8 @@ public:
 	DECLARE_LOGGER;
 
 	Real viscosity() const;
+	/// The step whose motion is done; -1 where the state was put back since.
+	long movedAt = -1;
 
 protected:
 	/// Before anything moves, with the forces of this step.

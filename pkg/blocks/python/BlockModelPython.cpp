@@ -1,6 +1,8 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
+#include <blocks/engines/BlockIntegrator.hpp>
 #include <blocks/python/Building.hpp>
+#include <core/Omega.hpp>
 
 /// What Python sees of a BlockModel: its parts, and its way into the scene.
 namespace yade {
@@ -23,6 +25,30 @@ namespace {
 		leftBehind.emplace_back(model.shared_from_this(), sentence);
 	}
 
+	/// Calls what saves the scene, within a step or not. Behind the motion of a step the scene is saved as that of the next one: loaded, it would move
+	/// once more else. Between forces and motion it is neither.
+	void betweenSteps(const BlockModel& model, const py::object& save)
+	{
+		Scene* const scene = Omega::instance().getScene().get();
+		bool         moves = false, moved = false;
+		for (const auto& engine : scene->engines)
+			if (const auto* mover = dynamic_cast<const BlockIntegrator*>(engine.get()); mover && !mover->dead)
+				moves = true, moved = moved || mover->movedAt == scene->iter;
+		if (moves && !moved && model.forcesAt == scene->iter)
+			throw std::runtime_error(
+				"O.save between the forces and the motion of a step, where a run cannot go on: what calls it must stand behind "
+				"BlockMotion (or BlockIntegrator) in O.engines, or before BlockLoop");
+		struct Next {
+			Scene*     scene;
+			const long iter    = scene->iter;
+			const Real time    = scene->time;
+			const int  subStep = scene->subStep;
+			~Next() { scene->iter = iter, scene->time = time, scene->subStep = subStep; }
+		} next { scene };
+		if (moved) ++scene->iter, scene->time += scene->dt, scene->subStep = -1;
+		save();
+	}
+
 } // namespace
 
 void BlockModelPython::visit(PythonModel& c) const
@@ -33,6 +59,7 @@ void BlockModelPython::visit(PythonModel& c) const
 	defineBuilding(c);
 	using py::arg;
 	c.add_property("_gone", &gone, &leave, "Why the model must not be used any more; empty if it may. yadeblocks.saving sets it and looks at it.");
+	c.def("_betweenSteps", &betweenSteps, (arg("save")), "Calls a function that saves the scene as between two steps; see yadeblocks.saving.");
 	c.def("bodyOf", &BlockModel::bodyOf, (arg("block")), "Id of the body of a block; after insert().")
 		.def("insert",
 	             &BlockModel::insert,

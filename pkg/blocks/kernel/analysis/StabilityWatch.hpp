@@ -60,6 +60,8 @@ private:
 	bool              excessTold = false;
 	Real              baseline   = 0; ///< energy at the first look less the work done by then [J]
 	Real              lastExcess = 0;
+	Real              lastScale  = 0;     ///< what was and is in the system, at the last look [J]
+	Real              earlier    = 0;     ///< ... before loads changed, the last time [J]
 	long              compared   = 0;     ///< step of lastExcess
 	std::vector<Vec2> loads, rigidLoads;  ///< at the last look [N]
 	std::vector<Real> inertia;            ///< at the last look [kg]
