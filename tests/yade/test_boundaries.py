@@ -163,16 +163,21 @@ def test_refusals():
 		(lambda: m.setStress((float('nan'), 0, 0)), 'must be finite'),
 		(lambda: m.stressTraction([], (1, 0, 0)), 'no edges'),
 	):
-		with pytest.raises(ValueError, match=text): call()
-	with pytest.raises(RuntimeError, match='must come after BlockModel.insert'): m.remove([0])
+		with pytest.raises(ValueError, match=text):
+			call()
+	with pytest.raises(RuntimeError, match='must come after BlockModel.insert'):
+		m.remove([0])
 	m.insert()
 	O.dt, O.engines = 1e-5, loopList(rescueFile='')
-	with pytest.raises(RuntimeError, match='quasiStatic must be False with viscous boundaries'): O.run(1, True)
+	with pytest.raises(RuntimeError, match='quasiStatic must be False with viscous boundaries'):
+		O.run(1, True)
 	m.releaseViscous('base')
 	m.stiffnessDamping = 1e-6
-	with pytest.raises(RuntimeError, match='quasiStatic must be False with BlockModel.stiffnessDamping'): O.run(1, True)
+	with pytest.raises(RuntimeError, match='quasiStatic must be False with BlockModel.stiffnessDamping'):
+		O.run(1, True)
 	O.engines = loopList(quasiStatic=False, damping='local', rescueFile='')
-	with pytest.raises(RuntimeError, match="damping must be 'none' with BlockModel.stiffnessDamping"): O.run(1, True)
+	with pytest.raises(RuntimeError, match="damping must be 'none' with BlockModel.stiffnessDamping"):
+		O.run(1, True)
 
 
 def rockMass(**changes):
@@ -219,7 +224,8 @@ def test_weightAndPressureAtRest():
 	assert abs(m.displacement).max() < 1e-13
 	assert m.groupForce('floor') == pytest.approx(density * 9.81 * 2 * 2 * 0.5, rel=1e-6)
 	m.setTarget('floor', 1e-6)
-	with pytest.raises(RuntimeError, match='knows no stresses in situ'): m.elasticJump()
+	with pytest.raises(RuntimeError, match='knows no stresses in situ'):
+		m.elasticJump()
 
 
 def test_openingInAStressedPlate():
@@ -248,7 +254,8 @@ def test_openingInAStressedPlate():
 	assert abs(m.displacement).max() < 1e-12
 	for name in 'disc left', 'disc low':
 		m.release(name)
-	with pytest.raises(ValueError, match='must be released'): m.remove([0])
+	with pytest.raises(ValueError, match='must be released'):
+		m.remove([0])
 	before = sum(energies().values())
 	bodies = len(O.bodies)
 	m.remove([disc])
@@ -286,4 +293,5 @@ def test_removedAndSaved(tmp_path):
 	m = model()
 	O.run(100, True)
 	assert m.fingerprint() == expected and list(m.removedBlocks) == [block]
-	with pytest.raises(ValueError, match='once only'): m.remove([block])
+	with pytest.raises(ValueError, match='once only'):
+		m.remove([block])

@@ -94,31 +94,18 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 		turnover += g.workTurnover;
 	for (const RigidBlock& r : a.state.rigid)
 		turnover += r.workTurnover;
-	const Real work = loadWork(a), put = workOfGroups(a, time, dt) + rigidWork(a) + work;
+	const Real work = loadWork(a), put = workOfGroups(a, time, dt) + rigidWork(a) + a.state.further.incoming + work;
 	const Real swinging = zoneEnergy(a) + jointEnergy(a) + kineticEnergy(a), energy = swinging + kineticChange(a, time, dt);
 	if (!begun) {
 		roundingEnergy = 0;
 		for (int block = 0; block < a.blockCount(); ++block)
 			for (int z = a.mesh.firstZone[block]; z < a.mesh.firstZone[block + 1]; ++z)
 				roundingEnergy += a.mesh.materials[a.mesh.blockMaterial[block]].young * a.mesh.zoneVolume[z] * roundingStrain * roundingStrain;
-<<<<<<< HEAD
-		baseline = energy - groupWork(a) - rigidWork(a) - a.state.further.incoming - work;
-=======
 		baseline = energy - put;
->>>>>>> in/v6
 		begun    = true;
 		compared = step;
 	}
 	if (loadsChanged(a))
-<<<<<<< HEAD
-		baseline = energy - groupWork(a) - rigidWork(a) - a.state.further.incoming - work
-			- lastExcess; // no work since the last look is known to be theirs
-	else
-		baseline += energyOfNewMasses(a);
-	inertia            = a.state.inertia;
-	const Real excess  = energy - groupWork(a) - rigidWork(a) - a.state.further.incoming - work - baseline;
-	const Real scale   = std::abs(baseline) + turnover + std::abs(work) + roundingEnergy;
-=======
 		baseline = energy - put - lastExcess, earlier = lastScale; // no work since the last look is known to be theirs
 	else
 		baseline += energyOfNewMasses(a);
@@ -126,7 +113,6 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 	const Real excess  = energy - put - baseline;
 	const Real scale   = std::max(earlier, std::abs(baseline) + turnover + std::abs(work) + roundingEnergy);
 	lastScale          = scale;
->>>>>>> in/v6
 	const bool compare = step - compared >= leastInterval;
 	const bool grows   = compare && excess > tolerance * scale && lastExcess > tolerance * scale && excess > growth * lastExcess;
 	if (grows || swinging > swing * (std::max(energy, Real(0)) + scale)) {
