@@ -77,7 +77,7 @@ def test_rockingRestitution(width, kn, seen, compare):
 
 
 def fallingArch(**motion):
-	"""A semicircle of 40 deformable voussoirs, 0.10 of its radius thick, where 0.1075 is the least (Milankovitch): it must fall. Gravity is there at once."""
+	"""A semicircle of 40 deformable voussoirs, 0.10 of its radius thick, where 0.1075 is the least (Milankovitch): it falls. Gravity is there at once."""
 	O.reset()
 	O.materials.append(BlockMat(label='rock', young=20e9, poisson=0.2, density=density))
 	model = BlockModel(thickness=1)

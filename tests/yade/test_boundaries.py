@@ -122,8 +122,8 @@ def test_savedInTheMiddle(tmp_path):
 
 
 def test_stiffnessDamping():
-	"""A bar held at its foot, in its first mode sin(pi y / 2H): u = e^(-xi omega t) cos(omega t), xi = beta omega / 2; H = 20 zones, so that omega is that of the
-	continuum within (pi/80)^2/24 = 6e-5."""
+	"""A bar held at its foot, in its first mode sin(pi y / 2H): u = e^(-xi omega t) cos(omega t), xi = beta omega / 2; with 20 zones omega is the
+	continuum's within (pi/80)^2/24 = 6e-5."""
 	omega, xi, height = pi / 2 * waves['P'] / 20, 0.02, 20
 	m = bar(height, straight='x')
 	m.drive('foot', bottom(m), 'y')
@@ -257,7 +257,6 @@ def test_openingInAStressedPlate():
 	with pytest.raises(ValueError, match='must be released'):
 		m.remove([0])
 	before = sum(energies().values())
-	bodies = len(O.bodies)
 	m.remove([disc])
 	assert list(m.removedBlocks) == [disc] and O.bodies[m.firstBody + disc] is None and O.interactions.countReal() == 0
 	O.run(3000, True)

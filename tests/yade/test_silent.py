@@ -83,7 +83,7 @@ def test_aTouchThatIsTooFastForItsStepIsRefused(start):
 
 def test_rigidBlocksThatWouldFirstTouchDeep():
 	"""Half a metre apart, 0.26 m a step: they would touch first a quarter of a metre deep, if at all. (They went through each other.)"""
-	model = inserted(size=1, gap=0.5, rigid=True)
+	inserted(size=1, gap=0.5, rigid=True)
 	O.engines, O.dt = loopList(contact=True, damping='none', quasiStatic=False, rescueFile='', newton=dict(damping=0)), 1e-4
 	O.run(1, True)
 	O.bodies[1].state.vel = -0.26 / O.dt, 0, 0
