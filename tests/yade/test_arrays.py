@@ -18,11 +18,12 @@ shapes = {
 	'segmentBlocks normal': ('contactCount / 2', 2),
 	'segmentArea': ('contactCount / 2', ),
 	'pointOpening pointSlip pointSigma pointTau pointStatus pointDamage': ('contactCount', ),
+	'removedBlocks': (0, ), # none has been
 }
 names = [name for group in shapes for name in group.split()]
-indices = 'zoneNodes firstNode firstZone firstEdge blockMaterial edgeNodes segmentNodes segmentBlocks'.split()
+indices = 'zoneNodes firstNode firstZone firstEdge blockMaterial edgeNodes segmentNodes segmentBlocks removedBlocks'.split()
 writable = ['displacement', 'velocity']
-copies = ['position', 'normal', 'pointDamage'] # worked out when asked for
+copies = ['position', 'normal', 'pointDamage', 'removedBlocks'] # worked out when asked for
 
 
 def test_shapesAsDocumented():
