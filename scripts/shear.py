@@ -20,6 +20,7 @@ cells=triangles fills the layers with triangular blocks; edgeSegments=n makes n 
 halfRate=true repeats every run at half the loading rate and reports the change of the peak.
 solver=events goes from failure to failure up to the peak (BlockModel.follow), which is the strength, and in time steps from there on; they may rise above
 it where `steps` are few. afterPeak=false ends with the path, without a residual.
+release=cascade is what a machine sees that holds its displacement while cracks run, and what slow steps come down to.
 """
 from math import atan, degrees, radians
 
@@ -62,7 +63,7 @@ pressSteps = 2000
 
 p = scenario.parameters({
 	**scenario.commonParameters(sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2), **scenario.usualParameters(
-		sigma=0.5e6, stroke=1e-3, approach=0.2, solver='steps', jump=True, servo=False, units='plain', cells='voronoi', edgeSegments=1
+		sigma=0.5e6, stroke=1e-3, approach=0.2, solver='steps', release='path', jump=True, servo=False, units='plain', cells='voronoi', edgeSegments=1
 	), 'afterPeak': Key(True, 'go on behind the peak, to the residual stress'),
 	'size': Key(3.5e-3, 'size of the Voronoi cells', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer')),
 	'joints': Key('paper', 'brittle joints of Table 5, or joints that soften',
@@ -133,7 +134,9 @@ def shear(stage, seed, steps):
 		stage.keep(record=record, cracks=cracks, approach=approach, stop=stop)
 		if not stage.model:
 			if p.solver == 'events':
-				path = loading.follow(model, 'shear', stage.label, gauges=[slip, uplift], peak=True, drop=0.5, displacement=p.stroke)
+				path = loading.follow(
+					model, 'shear', stage.label, gauges=[slip, uplift], peak=True, drop=0.5, displacement=p.stroke, release=p.release
+				)
 				top = path['force'].argmax()
 				up = slice(top + 1 if p.afterPeak else None) # the model is at the peak again; steps go on from there
 				record.take(

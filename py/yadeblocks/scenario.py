@@ -62,6 +62,10 @@ _usual = {
 	"solver": Key("steps", "time steps, or the exact path from failure to failure", rule=("steps", "events")),
 	"unitYoung": Key(20e9, "Young's modulus of the units", "Pa", positive),
 	"mortarYoung": Key(5e9, "Young's modulus of the mortar", "Pa", positive),
+	"release": Key(
+		"path", "solver=events: the load falls where that keeps the next point whole, or, under a held displacement, cascades break",
+		rule=("path", "cascade")
+	),
 	"brickZone": Key(8e-3, "size of the zones in plain bricks, mean edge of the blocks in others", "m", positive),
 	"merge": Key(0.1, "edges of Voronoi cells below this fraction of the size are merged", rule=(lambda f: 0 <= f < 1, "must lie in [0, 1)")),
 	"jump": Key(True, "leap over the elastic part of the loading"),
@@ -87,7 +91,7 @@ def commonParameters(**defaults):
 
 
 def usualParameters(**defaults):
-	"""Keys that more than one scenario has, with these defaults: `units cells unitYoung mortarYoung edgeSegments solver brickZone merge jump servo
+	"""Keys that more than one scenario has, with these defaults: `units cells unitYoung mortarYoung edgeSegments solver release brickZone merge jump servo
 	halfRate vtk frames movie sheets pressSteps approach sigma stroke` and all the common ones.
 
 	Raises TypeError for a name that is none of them."""
