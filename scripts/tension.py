@@ -29,6 +29,7 @@ units=voronoi makes bricks of blocks, with edges of brickZone, that could crack;
 cells=triangles fills the layers with triangular blocks; edgeSegments=n makes n joints of every edge, so that contact points lie inside edges too.
 halfRate=true repeats every run at half the loading rate and reports the change of the peak.
 solver=events goes from failure to failure instead of in time steps (BlockModel.follow): no rate, damping or mass.
+release=cascade is what a machine sees that holds its displacement while cracks run, and what slow steps come down to.
 """
 from math import radians
 
@@ -71,7 +72,7 @@ faster, growth = 20, 1.004 # behind the peak, where joints soften: up to so many
 
 p = scenario.parameters({
 	**scenario.commonParameters(lloyd=0), **scenario.usualParameters(
-		units='plain', cells='voronoi', edgeSegments=1, brickZone=8e-3, merge=0.2, solver='steps', jump=True, servo=False
+		units='plain', cells='voronoi', edgeSegments=1, brickZone=8e-3, merge=0.2, solver='steps', release='path', jump=True, servo=False
 	), 'size': Key(0.0, 'size of the Voronoi cells; 0: of the case', 'm', (lambda s: 0 <= s < mortarHeight, 'must be smaller than the mortar layer')),
 	'case': Key('TT2', 'properties of brittle joints, see above',
 			rule=tuple(cases)), 'joints': Key('paper', 'brittle joints of the case, or joints that soften', rule=('paper', *softeningSets)),
@@ -142,7 +143,7 @@ def pull(stage, seed, steps):
 		record.after(lambda row: progress(O.iter))
 		record.after(lambda row: stop(model.groupTravelled('top'), row.stress, row.yielded if softens else row.broken))
 		if p.solver == 'events':
-			path = loading.follow(model, 'top', stage.label, gauges=[gauge], displacement=2 * stroke)
+			path = loading.follow(model, 'top', stage.label, gauges=[gauge], displacement=2 * stroke, release=p.release)
 			record.take(
 				displacement=path['gauges'][0], stress=path['force'] / area, broken=path['cracked'], yielded=path['cracked'],
 				unbalanced=path['residual']
