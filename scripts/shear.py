@@ -19,7 +19,8 @@ units=voronoi makes bricks of blocks, with edges of brickZone, that could crack;
 cells=triangles fills the layers with triangular blocks; edgeSegments=n makes n joints of every edge, so that contact points lie inside edges too.
 halfRate=true repeats every run at half the loading rate and reports the change of the peak.
 solver=events goes from failure to failure up to the peak (BlockModel.follow), which is the strength, and in time steps from there on; they may rise above
-it where `steps` are few. afterPeak=false ends with the path, without a residual.
+it where `steps` are few. afterPeak=false ends behind the peak (events: with the path), without a residual.
+contact=false leaves out general contact: blocks meet in their joints alone, as events see them.
 release=cascade is what a machine sees that holds its displacement while cracks run, and what slow steps come down to.
 """
 from math import atan, degrees, radians
@@ -64,14 +65,13 @@ pressSteps = 2000
 p = scenario.parameters({
 	**scenario.commonParameters(sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2), **scenario.usualParameters(
 		sigma=0.5e6, stroke=1e-3, approach=0.2, solver='steps', release='path', jump=True, servo=False, units='plain', cells='voronoi', edgeSegments=1
-	), 'afterPeak': Key(True, 'go on behind the peak, to the residual stress'),
+	), 'afterPeak': Key(True, 'go on behind the peak, to the residual stress'), 'contact': Key(True, 'blocks that share no joint may meet'),
 	'size': Key(3.5e-3, 'size of the Voronoi cells', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer')),
 	'joints': Key('paper', 'brittle joints of Table 5, or joints that soften',
 			rule=tuple(sets)), **softening.jointKeys(*sets['paper']), **softening.scatterKeys, **moduli,
 	**scenario.usualParameters(brickZone=8e-3, merge=0.1, halfRate=False, vtk=True, frames=10, movie='none', sheets=True)
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'shear: solver=events has no rate: servo and halfRate must be false')
-scenario.require(p.afterPeak or p.solver == 'events', 'shear: afterPeak=false needs solver=events, got solver=steps')
 for key, value in sets[p.joints].items():
 	if getattr(p, key) == -1: setattr(p, key, value)
 softening.takeScatter(p)
@@ -123,7 +123,7 @@ def shear(stage, seed, steps):
 	)
 	if not stage.model: press(model, dt, floor)
 	approach = None if p.servo else loading.Approach(model, 'shear', p.approach, growth=1.03 if softens else 1.1) # one of them sets the speed
-	stop = loading.Stop(displacement=p.stroke)
+	stop = loading.Stop(drop=None if p.afterPeak else 0.8, displacement=p.stroke)
 	pace = Pace(model, lambda: model.groupForce('shear'), lambda: model.groupForce('bottom', axis='x'), stage.label)
 	with Progress(steps, lambda: loadingLine(record.last.displacement, record.last.stress, model, pace), label=stage.label) as progress:
 		record.after(lambda row: film.look(model.groupTravelled('shear') / p.stroke, row.stress, O.time))
@@ -159,7 +159,8 @@ def press(model, dt, floor):
 	"""The engines, the precompression, and the top edge set in motion."""
 	servo = dict(groups=['shear'], floor=floor) if p.servo else None
 	O.dt, O.trackEnergy = dt, softens
-	O.engines = loopList(contact=True, servo=servo, damping=p.damping, alpha=p.alpha, safety=p.safety) # broken joints may slide on, part and meet again
+	# with contact, what is broken may slide on, part and meet again
+	O.engines = loopList(contact=p.contact, servo=servo, damping=p.damping, alpha=p.alpha, safety=p.safety)
 	if p.solver == 'steps':
 		O.run(1, True)
 		if not p.jump: loading.settle(model, floor=floor)
@@ -183,6 +184,7 @@ with Session(p) as session:
 				run.add('peak_shear_stress', 'MPa', strength / 1e6, *peakExpected)
 				if p.afterPeak: run.add('residual_shear_stress', 'MPa', curves.residual(displacement, stress) / 1e6, *residualExpected)
 				run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
+				run.add('first_crack_point', '1', cracks.firstPoint if cracks.first[1] else np.nan) # its number in the model
 				run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
 				run.add('first_crack_place', 'mm', cracks.first[0][0] * 1e3) # from the left end
 				run.add('cracks_at_peak', '1', broken[peak])

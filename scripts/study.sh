@@ -1,5 +1,5 @@
 #!/bin/bash
-# Studies of many runs: scripts/study.sh ensemble|sensitivity|calibrate NAME [key=value ...]. Without arguments it says what they are,
+# Studies of many runs: scripts/study.sh ensemble|sensitivity|calibrate|limit NAME [key=value ...]. Without arguments it says what they are,
 # `scripts/study.sh KIND help` shows the keys. Interrupted studies continue when called again; results are in out/study-KIND-NAME/.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -210,6 +210,7 @@ with Session(p) as session:
 
 				run.add('peak_tensile_stress', 'MPa', strength / 1e6, expectedPeak, source)
 				run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
+				run.add('first_crack_point', '1', cracks.firstPoint if cracks.first[1] else np.nan) # its number in the model
 				slope = np.polyfit(displacement[elastic], stress[elastic], 1)[0]
 				run.add('joint_stiffness', 'N/mm3', slope / 1e9, seriesStiffness() / 1e9, 'series of mortar and joints')
 				run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)

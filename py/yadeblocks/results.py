@@ -47,7 +47,7 @@ class Cracks:
 		a, b = (np.asarray(model.reference)[np.asarray(model.segmentNodes)[:, end]] for end in (0, 1))
 		along = np.abs(b - a)
 		self.steep = (along[:, 1] > np.tan(np.pi / 3) * along[:, 0]).repeat(2)
-		self.first = (math.nan, math.nan), ""
+		self.first, self.firstPoint = ((math.nan, math.nan), ""), -1
 		self.highest, self.atPeak = -math.inf, {}
 
 	@property
@@ -55,13 +55,13 @@ class Cracks:
 		"""What a checkpoint keeps."""
 		return {
 			"areas": self.areas.tolist(), "bonded": self.bonded, "first": [[float(x) for x in self.first[0]], self.first[1]],
-			"highest": self.highest, "atPeak": self.atPeak
+			"firstPoint": int(self.firstPoint), "highest": self.highest, "atPeak": self.atPeak
 		}
 
 	@kept.setter
 	def kept(self, kept):
 		self.areas, self.bonded, self.highest, self.atPeak = np.array(kept["areas"]), kept["bonded"], kept["highest"], kept["atPeak"]
-		self.first = tuple(kept["first"][0]), kept["first"][1]
+		self.first, self.firstPoint = (tuple(kept["first"][0]), kept["first"][1]), kept["firstPoint"]
 
 	def noteStress(self, stress):
 		"""Takes the present stress, so that `atPeak` are the `counts` of the moment at which it was highest."""
@@ -73,17 +73,19 @@ class Cracks:
 
 	def look(self):
 		"""The number of broken contact points now. The first time that there are any, `first` becomes (place [m], joint type) of one of
-		them; before, the place is NaN and the type empty."""
+		them, and `firstPoint` its number; before, the place is NaN, the type empty, the number -1."""
 		broken = self._broken()
 		count = np.count_nonzero(broken)
 		if count and not self.first[1]:
-			point = np.flatnonzero(broken)[0]
-			self.first = tuple(np.asarray(self.model.contactPositions())[point]), self.pairs[point]
+			self._note(np.flatnonzero(broken)[0])
 		return count
 
 	def began(self, points):
 		"""Takes the contact points in the order of breaking from who knows it (`crackPoint` of `BlockModel.follow`)."""
-		if len(points): self.first = tuple(np.asarray(self.model.contactPositions())[points[0]]), self.pairs[points[0]]
+		if len(points): self._note(points[0])
+
+	def _note(self, point):
+		self.first, self.firstPoint = (tuple(np.asarray(self.model.contactPositions())[point]), self.pairs[point]), point
 
 	def counts(self):
 		"""Broken contact points by joint type and mode: {"unit-mortar": {"tension": 12, "shear": 3}, ...}, in alphabetical order.

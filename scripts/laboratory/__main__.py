@@ -1,9 +1,10 @@
 # yade-blocks, GPL-2.0-or-later
-"""Studies of many runs: scripts/study.sh ensemble|sensitivity|calibrate NAME [key=value ...]
+"""Studies of many runs: scripts/study.sh ensemble|sensitivity|calibrate|limit NAME [key=value ...]
 
 	ensemble      how the quantities of a scenario scatter over tessellations, and over tables of parameters
 	sensitivity   which parameters govern which quantity: one at a time, then Sobol's indices
 	calibrate     the parameters with which quantities reach their targets
+	limit         what slow time steps come down to, beside the exact path
 
 NAME is a scenario, or the path of one's own. Keys that are not the study's go to the scenario. Interrupted studies continue when called again.
 `scripts/study.sh KIND help` shows the study's keys; results are in out/study-KIND-NAME/.
@@ -14,7 +15,7 @@ import sys
 from pathlib import Path
 
 house = Path(__file__).resolve().parents[2]
-kinds = ("ensemble", "sensitivity", "calibrate")
+kinds = ("ensemble", "sensitivity", "calibrate", "limit")
 
 
 def main(words):

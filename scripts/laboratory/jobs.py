@@ -83,8 +83,9 @@ class Jobs:
 				**of(*curves.driven(x, y)),
 				**{k: v for k, v in of(*curves.driven(x[:exact], y[:exact])).items() if not k.startswith("residual")}
 			}
-			if not job.settings.get("afterPeak", True): measures.pop("residual_shear_stress", None)
-		else: measures = of(x, y)
+		else:
+			measures = of(x, y)
+		if not job.settings.get("afterPeak", True): measures.pop("residual_shear_stress", None)
 		lacking = [name for name, value in measures.items() if math.isnan(value)]
 		return {**record, "failed": "the curve has no " + ", no ".join(lacking)} if lacking else {**record, "measures": measures}
 
