@@ -41,8 +41,10 @@ def study(command):
 		for records in found.values():
 			why.update(reasons(records.values()))
 		label = settingsKey({key: point[key] for key in varied}) or command.stem
-		rows += [row(label, seed, {name: records[seed]["reported"] for name, records in found.items()})
-				for seed in found["events"] if all(seed in good(records) for records in found.values())]
+		rows += [
+			row(label, seed, {name: records[seed]["reported"] for name, records in found.items()}) for seed in found["events"]
+			if all(seed in good(records) for records in found.values())
+		]
 	if not rows: raise StudyError("study: no seed has all its runs: " + "; ".join(why))
 	frame = pandas.DataFrame(rows)
 	frame.to_csv(command.folder / "limit.csv", index=False, float_format="%.6g")
@@ -72,13 +74,10 @@ def markdown(rows, why):
 		"|---|---|---|---|---|---|---|---|---|---|---|"
 	]
 	for r in rows:
-		percent = {name: 100 * r[name] for name in ("off", "rate", "inertia", "known_to", "first_crack_off")}
-		yes = {name: "yes" if r[name] else "no" for name in ("agrees", "same_first_crack")}
-		lines.append(
-			f"| {r['point']} | {r['seed']} | {r['events']:.5f} | {r['slow']:.5f} | {percent['off']:+.2f} | {percent['rate']:+.2f} | "
-			f"{percent['inertia']:+.2f} | {percent['known_to']:.2f} | {yes['agrees']} | {yes['same_first_crack']} | {percent['first_crack_off']:+.2f} |"
-		)
-	lines += [
-		"", f"- Peaks agree in {sum(r['agrees'] for r in rows)} of {len(rows)}, first cracks in {sum(r['same_first_crack'] for r in rows)}."
-	] + [f"- {count} failed: {reason}" for reason, count in why.items()]
+		percent = [f"{100 * r[name]:+.2f}" for name in ("off", "rate", "inertia", "known_to", "first_crack_off")]
+		agrees, first = ("yes" if r[name] else "no" for name in ("agrees", "same_first_crack"))
+		cells = [r["point"], str(r["seed"]), f"{r['events']:.5f}", f"{r['slow']:.5f}", *percent[:4], agrees, first, percent[4]]
+		lines.append(f"| {' | '.join(cells)} |")
+	lines += ["", f"- Peaks agree in {sum(r['agrees'] for r in rows)} of {len(rows)}, first cracks in {sum(r['same_first_crack'] for r in rows)}."
+			] + [f"- {count} failed: {reason}" for reason, count in why.items()]
 	return "\n".join(lines) + "\n"

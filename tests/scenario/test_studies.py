@@ -11,7 +11,7 @@ import pytest
 from yadeblocks import curves, scenario
 
 sys.path.insert(0, str(Path(curves.__file__).parents[2] / "scripts"))
-from laboratory import calibrate, command, ensemble, sensitivity, statistics
+from laboratory import calibrate, command, ensemble, limit, sensitivity, statistics
 
 
 class Answers:
@@ -65,6 +65,29 @@ def studied(tmp_path):
 		return json.loads((made.folder / "study.json").read_text()), engine.runs, made.folder
 
 	return start
+
+
+def slowSteps(exact, cracked=7):
+	"""Steps that exceed the exact peak by 1 % times 1000 / steps for their rate, and miss it by 2 % of what alpha lacks of 1 for their inertia."""
+	def of(words):
+		if words.get("solver") == "events": return {"peak_stress": exact, "first_crack_stress": 1, "first_crack_point": 7}
+		peak = 2 * (1 + 10 / words["steps"] - 0.02 * (1 - words["alpha"]))
+		return {"peak_stress": peak, "first_crack_stress": 1.001, "first_crack_point": cracked}
+
+	return of
+
+
+def test_slowStepsAreKnownToWhatTheyShow(studied, tmp_path):
+	"""Half as many steps and less damping say what the slow run is known to: an exact peak within it agrees, one beyond it does not."""
+	(tmp_path / "scripts/tension.py").write_text("")
+	slow, half, less = (slowSteps(2)({"steps": s, "alpha": a})["peak_stress"] for s, a in ((2000, 0.95), (1000, 0.95), (2000, 0.8)))
+	known = slow * (abs(slow / half - 1) + abs(slow / less - 1))
+	for exact, agrees in (slow - 0.99 * known, True), (slow + 0.99 * known, True), (slow + 1.01 * known, False):
+		row, = studied(limit, slowSteps(exact), "slow=2000", "seeds=1", "retry=true", f"out={tmp_path / str(exact)}", name="tension")[0]["rows"]
+		assert row["agrees"] == agrees and row["known_to"] * slow == pytest.approx(known) and row["same_first_crack"]
+		assert row["first_crack_off"] == pytest.approx(0.001)
+	row, = studied(limit, slowSteps(2, cracked=8), "slow=2000", "seeds=1", f"out={tmp_path / 'other'}", name="tension")[0]["rows"]
+	assert not row["same_first_crack"]
 
 
 # ---- statistics

@@ -133,15 +133,15 @@ TEST(OverlapWatch, SeesAZoneThatHasTurnedInsideOut)
 	BlockAssembly a = twoMeshes();
 	OverlapWatch  watch;
 	watch.look(a);
-	EXPECT_EQ(watch.inverted, -1);
+	EXPECT_EQ(firstInverted(a), -1);
 	rotateAbout(a, { 0.3, 0.2 }, 2, { 1, 0 }); // turning is none of that
 	watch.look(a);
-	EXPECT_EQ(watch.inverted, -1);
+	EXPECT_EQ(firstInverted(a), -1);
 	const int  n  = a.mesh.firstNode[1];
 	const Vec2 at = a.position(n);
 	a.place(n, a.position(n + 1)), a.place(n + 1, at);
 	watch.look(a);
-	EXPECT_EQ(watch.inverted, 1);
+	EXPECT_EQ(firstInverted(a), 1);
 }
 
 TEST(StabilityWatch, WarnsOnceOfThickJointsAndStopsWhereTheirMeanIsTooThick)

@@ -127,8 +127,6 @@ void OverlapWatch::look(const BlockAssembly& a)
 		if (c.active.empty() || worst.share() > thin) enter(c.block); // edges that are too deep do not touch any more
 		if (worst.share() > contact.share()) contact = worst;
 	}
-
-	inverted = firstInverted(a);
 }
 
 } // namespace blocks

@@ -36,8 +36,7 @@ public:
 	Overlap            joint, contact;     ///< of bonded edges and of free ones: the greatest share
 	Real               mean = 0;           ///< share of bonded edges, over the area of those that overlap
 	std::array<int, 2> through { -1, -1 }; ///< the first block whose innermost point lies within the other one; -1: none
-	int                entries  = 0;       ///< how many pairs of that kind there are
-	int                inverted = -1;      ///< block of the first zone that has turned inside out; -1: none
+	int                entries = 0;        ///< how many pairs of that kind there are
 
 	const Overlap& thickest() const { return joint.share() > contact.share() ? joint : contact; }
 

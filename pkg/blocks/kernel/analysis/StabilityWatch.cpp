@@ -2,6 +2,8 @@
 #include <blocks/kernel/analysis/Energy.hpp>
 #include <blocks/kernel/analysis/StabilityWatch.hpp>
 #include <blocks/kernel/step/ViscousBoundaries.hpp>
+#include <blocks/kernel/step/ZoneForces.hpp>
+#include <cstring>
 
 namespace blocks {
 namespace {
@@ -24,6 +26,12 @@ namespace {
 
 	const char* const notANumber = "the motion of a grid point is not a number";
 	const char* const insideOut  = "a zone has turned inside out";
+
+	/// Whether columns are the same, bit by bit.
+	template <class T> bool same(const std::vector<T>& a, const std::vector<T>& b)
+	{
+		return a.size() == b.size() && (a.empty() || std::memcmp(static_cast<const void*>(a.data()), b.data(), a.size() * sizeof(T)) == 0);
+	}
 
 	/// "12 %"
 	std::string percent(Real share) { return std::to_string(std::lround(100 * share)) + " %"; }
@@ -74,11 +82,13 @@ namespace {
 
 StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, Real time, Real dt)
 {
-	const int bad = a.firstBadNode();
-	if (bad >= 0) return { false, a.blockOfNode(bad), notANumber };
-
+	const ZoneLook zones   = lookAtZones(a);
+	const Real     kinetic = kineticEnergy(a);
+	if (!zones.sound || !std::isfinite(zones.energy + kinetic)) { // who is asked one by one
+		const Verdict verdict = lookAtEnd(a);
+		if (!verdict.stable) return verdict;
+	}
 	overlaps.look(a);
-	if (overlaps.inverted >= 0) return { false, overlaps.inverted, insideOut };
 	const char* const cure    = "; joints must be stiffer or loads smaller";
 	const std::string entered = overlaps.entries == 0 ? "" : "has gone into block " + std::to_string(overlaps.through[1]) + " by more than half";
 	if (overlaps.entries > lostShare * a.blockCount()) return { false, overlaps.through[0], "it " + entered + cure };
@@ -95,7 +105,7 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 	for (const RigidBlock& r : a.state.rigid)
 		turnover += r.workTurnover;
 	const Real work = loadWork(a), put = workOfGroups(a, time, dt) + rigidWork(a) + a.state.further.incoming + work;
-	const Real swinging = zoneEnergy(a) + jointEnergy(a) + kineticEnergy(a), energy = swinging + kineticChange(a, time, dt);
+	const Real swinging = zones.energy + jointEnergy(a) + kinetic, energy = swinging + kineticChange(a, time, dt);
 	if (!begun) {
 		roundingEnergy = 0;
 		for (int block = 0; block < a.blockCount(); ++block)
@@ -109,7 +119,7 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 		baseline = energy - put - lastExcess, earlier = lastScale; // no work since the last look is known to be theirs
 	else
 		baseline += energyOfNewMasses(a);
-	inertia            = a.state.inertia;
+	if (!same(inertia, a.state.inertia)) inertia = a.state.inertia;
 	const Real excess  = energy - put - baseline;
 	const Real scale   = std::max(earlier, std::abs(baseline) + turnover + std::abs(work) + roundingEnergy);
 	lastScale          = scale;
@@ -149,8 +159,10 @@ bool StabilityWatch::loadsChanged(const BlockAssembly& a)
 	std::vector<Vec2> rigid;
 	for (const RigidBlock& r : a.state.rigid)
 		rigid.push_back(r.load);
-	const bool changed = goodAt >= 0 && (a.supports.load != loads || rigid != rigidLoads);
-	loads = a.supports.load, rigidLoads = std::move(rigid);
+	const bool others  = !same(a.supports.load, loads);
+	const bool changed = goodAt >= 0 && (others || rigid != rigidLoads);
+	if (others) loads = a.supports.load;
+	rigidLoads = std::move(rigid);
 	return changed;
 }
 
@@ -158,7 +170,7 @@ bool StabilityWatch::loadsChanged(const BlockAssembly& a)
 Real StabilityWatch::energyOfNewMasses(const BlockAssembly& a) const
 {
 	Real sum = 0;
-	if (inertia.size() == a.state.inertia.size())
+	if (inertia.size() == a.state.inertia.size() && !same(inertia, a.state.inertia))
 		for (int n = 0; n < a.nodeCount(); ++n)
 			sum += (a.state.inertia[n] - inertia[n]) / 2 * a.state.velocity[n].squaredNorm();
 	return sum;

@@ -63,7 +63,40 @@ namespace {
 	{
 		forcesOfBatch<Strain::small, true, true>(b, mesh, first, count, m);
 	}
+
+	/// Energies alone; how many zones are inside out or not a number.
+	template <Strain kind> inline __attribute__((always_inline)) int lookAtBatch(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m)
+	{
+		const Moduli moduli = m;
+		const Real * g1x = mesh.zoneGradient.g1x.data() + first, *g1y = mesh.zoneGradient.g1y.data() + first;
+		const Real * g2x = mesh.zoneGradient.g2x.data() + first, *g2y = mesh.zoneGradient.g2y.data() + first;
+		const Real*  volume = mesh.zoneVolume.data() + first;
+		int          bad    = 0;
+#pragma GCC ivdep
+		for (int i = 0; i < count; ++i) {
+			const ZoneGradients g { g1x[i], g1y[i], g2x[i], g2y[i] };
+			const Real          determinant = (1 + b.px[i] * g.g1x + b.qx[i] * g.g2x) * (1 + b.py[i] * g.g1y + b.qy[i] * g.g2y)
+				- (b.px[i] * g.g1y + b.qx[i] * g.g2y) * (b.py[i] * g.g1x + b.qy[i] * g.g2x);
+			bad += determinant > 0 ? 0 : 1;
+			b.energy[i] = volume[i] * zoneEnergyDensity(moduli, zoneStrain<kind>(g, b.px[i], b.py[i], b.qx[i], b.qy[i]));
+		}
+		return bad;
+	}
+	WIDE int lookAtLarge(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m) { return lookAtBatch<Strain::large>(b, mesh, first, count, m); }
+	WIDE int lookAtSmall(Batch& b, const Mesh& mesh, int first, int count, const Moduli& m) { return lookAtBatch<Strain::small>(b, mesh, first, count, m); }
+
 	using Kernel = void (*)(Batch&, const Mesh&, int, int, const Moduli&);
+
+	/// How far grid points 1 and 2 of zones have gone beside grid point 0.
+	void gather(Batch& b, const std::array<int, 3>* nodes, int count, const Real* u)
+	{
+		for (int i = 0; i < count; ++i) {
+			const auto& node = nodes[i];
+			const Real  x0 = u[2 * node[0]], y0 = u[2 * node[0] + 1];
+			b.px[i] = u[2 * node[1]] - x0, b.py[i] = u[2 * node[1] + 1] - y0;
+			b.qx[i] = u[2 * node[2]] - x0, b.qy[i] = u[2 * node[2] + 1] - y0;
+		}
+	}
 
 	/// Zones of any shape: edge by edge from their grid points, and back.
 	void addAnyZones(const Mesh& mesh, const Real* u, Real* f, int block, const Moduli& m, Kernel law, Real* energy)
@@ -74,12 +107,7 @@ namespace {
 		for (int zone = mesh.firstZone[block]; zone < zoneEnd; zone += zoneBatch) {
 			const std::array<int, 3>* nodes = mesh.zoneNodes.data() + zone;
 			const int                 count = std::min(zoneBatch, zoneEnd - zone);
-			for (int i = 0; i < count; ++i) {
-				const auto& node = nodes[i];
-				const Real  x0 = u[2 * node[0]], y0 = u[2 * node[0] + 1];
-				b.px[i] = u[2 * node[1]] - x0, b.py[i] = u[2 * node[1] + 1] - y0;
-				b.qx[i] = u[2 * node[2]] - x0, b.qy[i] = u[2 * node[2] + 1] - y0;
-			}
+			gather(b, nodes, count, u);
 			law(b, mesh, zone, count, m);
 			if (energy)
 				for (int i = 0; i < count; ++i)
@@ -155,6 +183,32 @@ void addZoneForces(const BlockAssembly& a, int first, int last, Vec2* force, Rea
 		} else
 			addAnyZones(mesh, u, f, first, m, law, energy);
 	}
+}
+
+ZoneLook lookAtZones(const BlockAssembly& a)
+{
+	const Mesh& mesh = a.mesh;
+	const Real* u    = a.state.displacement.data()->data();
+	ZoneLook    look;
+	Batch       b;
+	for (int block = 0, next; block < a.blockCount(); block = next) { // blocks of one material at a time
+		next = block + 1;
+		while (next < a.blockCount() && mesh.blockMaterial[next] == mesh.blockMaterial[block])
+			++next;
+		const Moduli m   = moduliOf(a, block);
+		const int    end = mesh.firstZone[next];
+		for (int zone = mesh.firstZone[block]; zone < end; zone += zoneBatch) {
+			const int count = std::min(zoneBatch, end - zone);
+			gather(b, mesh.zoneNodes.data() + zone, count, u);
+			if ((a.strain == Strain::large ? lookAtLarge : lookAtSmall)(b, mesh, zone, count, m) > 0) look.sound = false;
+			if (!mesh.inSitu.empty())
+				for (int i = 0; i < count; ++i)
+					b.energy[i] = mesh.zoneVolume[zone + i] * zoneEnergyDensity(m, elasticStrainOf(a, zone + i));
+			for (int i = 0; i < count; ++i)
+				look.energy += b.energy[i];
+		}
+	}
+	return look;
 }
 
 ZoneStrain strainOf(const BlockAssembly& a, int zone)

@@ -9,6 +9,13 @@ namespace blocks {
 /// null, gets the elastic energy of every block's zones [J].
 void addZoneForces(const BlockAssembly&, int firstBlock, int lastBlock, Vec2* force, Real* energy = nullptr);
 
+/// What a look at all zones shows.
+struct ZoneLook {
+	Real energy = 0;    ///< elastic [J]
+	bool sound  = true; ///< false: one is inside out, to rounding, or not a number
+};
+ZoneLook lookAtZones(const BlockAssembly&);
+
 /// So many zones are worked on side by side.
 constexpr int zoneBatch = 64;
 
