@@ -150,6 +150,7 @@ def shear(stage, seed, steps):
 			if p.solver == 'steps' and p.jump:
 				model.elasticJump()
 				record()
+				if not softens: O.engines += [cracks.engine()]
 			O.engines += [record.engine(max(1, min(50, steps // 400)))]
 		stage.run()
 	return model, record, cracks, film

@@ -156,7 +156,7 @@ def pull(stage, seed, steps):
 		if approach: record.after(lambda row: approach(row.stress, row.yielded))
 		record.after(lambda row: pace(row.yielded))
 		stage.keep(record=record, cracks=cracks, approach=approach, stop=stop)
-		if not stage.model: leap(model, steps, record)
+		if not stage.model: leap(model, steps, record, cracks)
 		stage.run()
 	return model, record, cracks, film
 
@@ -169,13 +169,14 @@ def begin(model, steps, floor):
 	if softens and not p.servo: model.setTarget('top', faster * velocity, rampTime=0 if p.jump else 0.05 * duration)
 
 
-def leap(model, steps, record):
+def leap(model, steps, record, cracks):
 	"""The way to the first crack."""
 	record()
 	if p.jump:
 		model.elasticJump()
 		record()
-	O.engines += [record.engine(max(1, steps // 1600))]
+		if not softens: O.engines += [cracks.engine()]
+	O.engines += [record.engine(max(1, min(50, steps // 1600)))]
 
 
 def seriesStiffness():

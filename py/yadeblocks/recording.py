@@ -71,8 +71,13 @@ class Recorder:
 def runner(name, function, iterPeriod=1, **attributes):
 	"""A PyRunner that calls a function every so many steps; `name` tells it from others, also in a scene that was saved and loaded."""
 	from yade.wrapper import PyRunner
-	_known[name] = function
+	known(name, function)
 	return PyRunner(command=f"__import__('yadeblocks.recording').recording.call({name!r})", iterPeriod=iterPeriod, **attributes)
+
+
+def known(name, function):
+	"""Lets the PyRunners of this name call the function."""
+	_known[name] = function
 
 
 def call(name):

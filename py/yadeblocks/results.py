@@ -27,6 +27,7 @@ import numpy as np
 from . import files
 from .curves import hasPeak
 from .export import pointNames
+from .recording import known, runner
 
 #: Contact points by what has become of them: values of `model.pointStatus`.
 intact, brokenInTension, brokenInShear, neverBonded = range(4)
@@ -49,6 +50,7 @@ class Cracks:
 		self.steep = (along[:, 1] > np.tan(np.pi / 3) * along[:, 0]).repeat(2)
 		self.first, self.firstPoint = ((math.nan, math.nan), ""), -1
 		self.highest, self.atPeak = -math.inf, {}
+		known('first crack', self._lookForFirst) # also for the engine of a scene that was saved
 
 	@property
 	def kept(self):
@@ -79,6 +81,14 @@ class Cracks:
 		if count and not self.first[1]:
 			self._note(np.flatnonzero(broken)[0])
 		return count
+
+	def engine(self):
+		"""A PyRunner, for O.engines, that looks in every step until something has broken: `first` then is the first, not one of several."""
+		return runner('first crack', self._lookForFirst, label='firstCrack')
+
+	def _lookForFirst(self):
+		from yade import O
+		if self.look(): next(engine for engine in O.engines if engine.label == 'firstCrack').dead = True
 
 	def began(self, points):
 		"""Takes the contact points in the order of breaking from who knows it (`crackPoint` of `BlockModel.follow`)."""
