@@ -172,11 +172,10 @@ def test_removedBlocksAreNotDrawn(column, tmp_path):
 	cells = [(tmp_path / f'{name}_000{number}.vtu').read_bytes().split(b'NumberOfCells="')[1].split(b'"')[0] for name in ('blocks', 'joints')
 			for number in (0, 1)]
 	assert int(cells[1]) == int(cells[0]) // 2 and cells[2:] == [b'4', b'0']
-	for what in ('uy', 's1', 'opening', 'cracks'):
-		from PIL import Image
-		movie = Image.open(picturesfields.drawMovie(tmp_path / f'{what}.gif', [before, after], what))
-		frames = []
-		for number in (0, 1):
-			movie.seek(number)
-			frames.append((np.asarray(movie.convert('RGB')).min(axis=2) < 250).mean())
-		assert frames[1] < 0.75 * frames[0], what
+	from PIL import Image
+	movie, frames = Image.open(picturesfields.drawMovie(tmp_path / 'a.gif', [before, after], 'cracks')), []
+	for number in (0, 1):
+		movie.seek(number)
+		picture = np.asarray(movie.convert('RGB')).astype(int)
+		frames.append((abs(picture - picture[0, 0]).max(axis=2) > 12).mean()) # not of the paper
+	assert frames[1] < 0.75 * frames[0], frames
