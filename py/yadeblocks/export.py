@@ -28,6 +28,19 @@ def pointNames(model, names=None):
 	return found.repeat(2)
 
 
+class Present:
+	"""What of a model has not been removed, as masks: `blocks`, `nodes`, `zones`, `joints` and `points` (contact points; those between two blocks that are
+	there). everything: as before any removal."""
+	def __init__(self, model, everything=False):
+		self.blocks = np.ones(len(model.blockMaterial), bool)
+		self.all = everything or not len(model.removedBlocks)
+		if not self.all: self.blocks[model.removedBlocks] = False
+		self.nodes = np.repeat(self.blocks, np.diff(model.firstNode))
+		self.zones = np.repeat(self.blocks, np.diff(model.firstZone))
+		self.joints = self.blocks[np.reshape(model.segmentBlocks, (-1, 2))].all(axis=1)
+		self.points = np.repeat(self.joints, 2)
+
+
 def blockOutlines(model):
 	"""The boundary of every block: a list of rings per block, each an array of node indices, material on the left (holes clockwise)."""
 	outlines = []
@@ -114,7 +127,7 @@ def vonMises(stress, szz):
 class State:
 	"""What BlocksExport writes of a model at a time [s]: copied, so that it can be written later, whatever has become of the model.
 
-	untouched: as the model was before anything moved or broke."""
+	untouched: as the model was before anything moved, broke or was removed."""
 	def __init__(self, model, time, untouched=False):
 		self.time = float(time)
 		self.grids = {"blocks": _zones(model, untouched), "joints": _joints(model, untouched), "contacts": _contacts(model, untouched)}
@@ -123,7 +136,7 @@ class State:
 class BlocksExport:
 	"""Three collections for ParaView in `folder`, begun anew: blocks.pvd (zones; rigid blocks as triangles between their corners), joints.pvd
 	(a line for every contact point, its half of the segment) and contacts.pvd (a line for every two edges that touch without a bond), each with a
-	compressed .vtu file per step.
+	compressed .vtu file per step. Blocks that have been removed are not in it.
 
 	Zones: block, material (number in O.materials' order), stresses sxx, syy, sxy, szz, principal stresses s1, s2 in the plane and vonMises [Pa],
 	strains exx, eyy, exy;
@@ -169,14 +182,14 @@ def writeFilm(folder, film, end):
 
 def _zones(model, untouched):
 	"""Arguments of _writeGrid."""
+	there = Present(model, everything=untouched)
 	rigid = np.flatnonzero(np.diff(model.firstZone) == 0)
 	triangles = [np.reshape(model.zoneNodes, (-1, 3)), *map(model.cornerTriangles, rigid.tolist())]
 	blocks = np.repeat([*range(len(model.blockMaterial)), *rigid], [*np.diff(model.firstZone), *map(len, triangles[1:])]).astype(np.int32)
 	stress = np.zeros((len(blocks), 3)) # none in rigid blocks
 	if not untouched: stress[:len(triangles[0])] = model.zoneStress()
-	there = 0.0 if untouched else 1.0
 	position = model.reference if untouched else model.position
-	displacement, velocity = _spatial(position - model.reference), _spatial(there * model.velocity)
+	displacement, velocity = _spatial(position - model.reference), _spatial((0.0 if untouched else 1.0) * model.velocity)
 	cells = {"block": blocks, "material": np.asarray(model.blockMaterial, np.int32)[blocks], **dict(zip(("sxx", "syy", "sxy"), stress.T))}
 	strain = np.zeros((len(blocks), 3))
 	if not untouched: strain[:len(triangles[0])] = zoneStrains(model)
@@ -184,7 +197,11 @@ def _zones(model, untouched):
 	szz = np.zeros(len(blocks))
 	szz[:len(model.zoneNodes)] = outOfPlaneStress(model, stress[:len(model.zoneNodes)])
 	cells.update(zip(("s1", "s2"), principalStresses(stress).T), szz=szz, vonMises=vonMises(stress, szz))
-	return np.array(position), "triangle", np.concatenate(triangles), {"displacement": displacement, "velocity": velocity}, cells
+	triangles, kept = np.concatenate(triangles), there.blocks[blocks]
+	number = np.cumsum(there.nodes) - 1 # of the grid points that are left
+	cells = {name: values[kept] for name, values in cells.items()}
+	pointData = {"displacement": displacement[there.nodes], "velocity": velocity[there.nodes]}
+	return np.array(position)[there.nodes], "triangle", number[triangles[kept]], pointData, cells
 
 
 def _joints(model, untouched):
@@ -200,6 +217,8 @@ def _joints(model, untouched):
 		cells[name] = np.zeros_like(values) if untouched else values
 	status = np.array(model.pointStatus, np.uint8)
 	cells["status"] = np.where(status == 3, status, 0).astype(np.uint8) if untouched else status # never bonded stays so
+	kept = Present(model, everything=untouched).points
+	lines, cells = lines[kept], {name: values[kept] for name, values in cells.items()}
 	return lines.reshape(-1, 2), "line", np.arange(2 * len(lines)).reshape(-1, 2), {}, cells
 
 

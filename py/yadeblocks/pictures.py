@@ -14,8 +14,8 @@ from itertools import cycle
 import numpy as np
 
 from . import files
-from .export import blockOutlines, contactLines, pointNames
-from .results import Cracks, modes
+from .export import Present, blockOutlines, contactLines, pointNames
+from .results import Cracks, intact, modes
 
 #: What a curve is compared with: y is a number (drawn as a line), a pair (a band) or, with x, a measured curve.
 Reference = namedtuple("Reference", "label y x", defaults=(None, ))
@@ -70,12 +70,13 @@ def drawCracks(path, model, magnification=None, window=None, title="", names=Non
 	names: of joints, as in results.Cracks. Returns the path."""
 	reference = np.asarray(model.reference)
 	displacement = model.position - reference
-	displacement = displacement - np.median(displacement, axis=0)
+	there = Present(model).nodes
+	displacement = displacement - np.median(displacement[there], axis=0)
 	if magnification is None:
-		magnification = _visible(np.ptp(reference, axis=0).max(), displacement)
+		magnification = _visible(np.ptp(reference, axis=0).max(), displacement[there])
 	shown = reference + magnification * displacement
 
-	low, high = _window(reference, shown) if window is None else np.reshape(window, (2, 2))
+	low, high = _window(reference, shown, there) if window is None else np.reshape(window, (2, 2))
 	width, height = (high - low) * min(_textWidth / (high - low)[0], 1.3 * _textWidth / (high - low)[1])
 	with _picture(path, width, height) as figure:
 		axes = figure.add_axes((0, 0, 1, 1), xlim=(low[0], high[0]), ylim=(low[1], high[1]))
@@ -157,8 +158,10 @@ def _drawBlocks(axes, model, shown):
 	from matplotlib.patches import Patch
 	from matplotlib.path import Path
 	tones = _assigned(model.materialLabels, _blockTones, _spareTones)
-	paths = [Path.make_compound_path(*(Path(shown[np.append(ring, ring[0])], closed=True) for ring in rings)) for rings in blockOutlines(model)]
-	colours = [tones[model.materialLabels[material]] for material in model.blockMaterial]
+	there = Present(model).blocks
+	outlines = [rings for rings, kept in zip(blockOutlines(model), there) if kept]
+	paths = [Path.make_compound_path(*(Path(shown[np.append(ring, ring[0])], closed=True) for ring in rings)) for rings in outlines]
+	colours = [tones[model.materialLabels[material]] for material in np.asarray(model.blockMaterial)[there]]
 	axes.add_collection(PathCollection(paths, facecolors=colours, edgecolors="#9C958B", linewidths=0.25, zorder=1), autolim=False)
 	present = [label for label in tones if tones[label] in colours]
 	return [Patch(facecolor=tones[label], edgecolor="#9C958B", linewidth=0.5, label=label) for label in present]
@@ -168,10 +171,11 @@ def _drawCrackLines(axes, model, shown, names=None):
 	"""Draws the cracks; the legend's handles, all modes of a joint type one after the other."""
 	from matplotlib.collections import LineCollection
 	from matplotlib.lines import Line2D
-	counts = {pair: count for pair, count in Cracks(model, names).counts().items() if any(count.values())}
+	there = Present(model).points
+	counts = {pair: count for pair, count in Cracks(model, names).counts(there).items() if any(count.values())}
 	colours = _assigned(counts, _jointColours, _spareColours)
 	pairs = pointNames(model, names)
-	status = np.asarray(model.pointStatus)
+	status = np.where(there, model.pointStatus, intact)
 	lines = contactLines(model, shown)
 	size = np.ptp(model.reference, axis=0).max()
 	width = _lineWidth(axes, lines)
@@ -193,7 +197,7 @@ def _drawSoftened(axes, model, lines, status, width):
 	from matplotlib.collections import LineCollection
 	from matplotlib.lines import Line2D
 	damage = np.asarray(getattr(model, "pointDamage", np.zeros(len(status))))
-	begun = (damage > 0.05) & (status != modes["tension"]) & (status != modes["shear"])
+	begun = (damage > 0.05) & Present(model).points & (status != modes["tension"]) & (status != modes["shear"])
 	if not begun.any(): return []
 	shade = damage[begun]
 	colours = [(0.8, 0.47, 0.65, 0.25 + 0.75 * value) for value in shade] # of Okabe and Ito, too
@@ -254,11 +258,12 @@ def _visible(size, displacement):
 	return max(1, _roundDown(0.02 * size / largest)) if largest > 1e-9 * size else 1
 
 
-def _window(reference, shown):
-	"""Corners of a view of all of the deformed shape; fragments count that are within the specimen's size of it."""
+def _window(reference, shown, there=True):
+	"""Corners of a view of all of the deformed shape; fragments count that are within the specimen's size of it. The undeformed shape is within it, too,
+	also what has been removed since. there: a mask of the grid points that have not been."""
 	low, high = reference.min(axis=0), reference.max(axis=0)
 	size = (high - low).max()
-	near = ((shown > low - size) & (shown < high + size)).all(axis=1)
+	near = ((shown > low - size) & (shown < high + size)).all(axis=1) & there
 	low, high = np.minimum(low, shown[near].min(axis=0, initial=np.inf)), np.maximum(high, shown[near].max(axis=0, initial=-np.inf))
 	margin = 0.015 * (high - low).max()
 	return low - margin, high + margin

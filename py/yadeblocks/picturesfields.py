@@ -13,7 +13,7 @@
 import numpy as np
 
 from . import files, pictures
-from .export import blockOutlines, contactLines, freeContactLines, jointMotion, outOfPlaneStress, principalStresses, vonMises
+from .export import Present, blockOutlines, contactLines, freeContactLines, jointMotion, outOfPlaneStress, principalStresses, vonMises
 from .snapshot import reactionsOf
 
 #: What contours can show: displacements u, ux, uy of the grid points and stresses of the zones.
@@ -77,8 +77,8 @@ def drawMovie(path, states, what="cracks", magnification=None, window=None, titl
 		raise RuntimeError(f"a movie {path.suffix} needs {'ffmpeg: scripts/install.sh ffmpeg' if path.suffix == '.mp4' else 'Pillow'}")
 	last = _View(states[-1], magnification, window)
 	views = [_View(state, last.magnification, (*last.low, *last.high)) for state in states]
-	if what in fields: most = max((_most(_values(view, what)[0]) for view in views), default=0)
-	elif what in onJoints: most = max((_most(_onJoints(view.model, what)) for view in views), default=0)
+	if what in fields: most = max((_most(_values(view, what)[0][_kept(view, what)]) for view in views), default=0)
+	elif what in onJoints: most = max((_most(_onJoints(view.model, what)[view.there.points]) for view in views), default=0)
 	draw = {**kinds, **dict.fromkeys(fields, lambda a, v: _field(a, v, what, most)), **dict.fromkeys(onJoints, lambda a, v: _bars(a, v, what, most))}[what]
 	size = last.high - last.low
 	width, height = size * min(5 / size[0], 5 / size[1])
@@ -127,10 +127,13 @@ class _View:
 		self.model, reference = model, np.asarray(model.reference)
 		displacement = model.position - reference
 		self.displacement = displacement
-		displacement = displacement - np.median(displacement, axis=0)
-		self.magnification = pictures._visible(np.ptp(reference, axis=0).max(), displacement) if magnification is None else magnification
+		self.there = Present(model)
+		displacement = displacement - np.median(displacement[self.there.nodes], axis=0)
+		self.magnification = pictures._visible(
+			np.ptp(reference, axis=0).max(), displacement[self.there.nodes]
+		) if magnification is None else magnification
 		self.shown = reference + self.magnification * displacement
-		self.low, self.high = pictures._window(reference, self.shown) if window is None else np.reshape(window, (2, 2))
+		self.low, self.high = pictures._window(reference, self.shown, self.there.nodes) if window is None else np.reshape(window, (2, 2))
 
 
 def _alone(path, model, draw, magnification, window, title):
@@ -158,7 +161,8 @@ def _known(name, value, choices):
 def _outlines(axes, view, fill="none"):
 	from matplotlib.collections import PathCollection
 	from matplotlib.path import Path
-	paths = [Path.make_compound_path(*(Path(view.shown[np.append(ring, ring[0])], closed=True) for ring in rings)) for rings in blockOutlines(view.model)]
+	outlines = [rings for rings, kept in zip(blockOutlines(view.model), view.there.blocks) if kept]
+	paths = [Path.make_compound_path(*(Path(view.shown[np.append(ring, ring[0])], closed=True) for ring in rings)) for rings in outlines]
 	axes.add_collection(PathCollection(paths, facecolors=fill, edgecolors="#5F5F5F", linewidths=0.2, zorder=2 if fill == "none" else 1), autolim=False)
 
 
@@ -180,6 +184,11 @@ def _values(view, what):
 	return stress[:, ("sxx", "syy", "sxy").index(what)], "Pa"
 
 
+def _kept(view, what):
+	"""Which of _values are of blocks that have not been removed."""
+	return view.there.nodes if what in ("u", "ux", "uy") else view.there.zones
+
+
 def _scale(most, unit):
 	"""A size in a unit in which it is neither tiny nor huge, the factor of that unit, and its name."""
 	prefixes = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
@@ -199,17 +208,18 @@ def _field(axes, view, what, most=None):
 	from matplotlib.collections import PolyCollection
 	model = view.model
 	values, unit = _values(view, what)
-	most, factor, unit = _scale(_most(values) if most is None else most, unit)
+	most, factor, unit = _scale(_most(values[_kept(view, what)]) if most is None else most, unit)
 	values = values / factor
 	_outlines(axes, view, "#EDEDED")
 	if what in ("u", "ux", "uy"):
 		rigid = np.flatnonzero(np.diff(model.firstZone) == 0).tolist()
-		triangles = np.concatenate([np.reshape(model.zoneNodes, (-1, 3)), *map(model.cornerTriangles, rigid)])
+		triangles = np.concatenate([np.reshape(model.zoneNodes, (-1, 3))[view.there.zones], *map(model.cornerTriangles, rigid)])
 		colours = axes.tripcolor(*view.shown.T, triangles, values, shading="gouraud", cmap="viridis" if what == "u" else "RdBu_r", zorder=1.5)
 	else:
 		if not len(values): return
 		colours = PolyCollection(
-			view.shown[model.zoneNodes], array=values, cmap="viridis" if what == "vonMises" else "RdBu_r", linewidths=0, zorder=1.5
+			view.shown[model.zoneNodes[view.there.zones]], array=values[view.there.zones], cmap="viridis" if what == "vonMises" else "RdBu_r",
+			linewidths=0, zorder=1.5
 		)
 		colours.set_edgecolor("face")
 		axes.add_collection(colours, autolim=False)
@@ -233,7 +243,7 @@ def _cross(axes, view):
 	_outlines(axes, view, "#F7F7F7")
 	stress = np.asarray(model.zoneStress())
 	if not len(stress): return
-	middles = view.shown[model.zoneNodes].mean(axis=1)
+	stress, middles = stress[view.there.zones], view.shown[model.zoneNodes[view.there.zones]].mean(axis=1)
 	chosen = _spread(middles, view, _crosses)
 	stress, middles = stress[chosen], middles[chosen]
 	principal = principalStresses(stress)
@@ -278,7 +288,9 @@ def _bars(axes, view, what, most=None):
 	if not len(values): return
 	there = np.repeat(np.asarray(model.segmentArea) > 0, 2)
 	if what in ("opening", "slip"): there[:] = True
+	there &= view.there.points
 	lines, values = contactLines(model, view.shown)[there], values[there]
+	if not len(values): return
 	normals = np.repeat(model.normal, 2, axis=0)[there]
 	most, factor, unit = _scale(_most(values) if most is None else most, "Pa" if what in ("sigma", "tau") else "m")
 	values = values / factor

@@ -97,10 +97,10 @@ class Cracks:
 	def _note(self, point):
 		self.first, self.firstPoint = (tuple(np.asarray(self.model.contactPositions())[point]), self.pairs[point]), point
 
-	def counts(self):
+	def counts(self, which=True):
 		"""Broken contact points by joint type and mode: {"unit-mortar": {"tension": 12, "shear": 3}, ...}, in alphabetical order.
-		Every joint type that was bonded is there, also with zeros."""
-		status = np.asarray(self.model.pointStatus)
+		Every joint type that was bonded is there, also with zeros. which: a mask of the contact points that count; all."""
+		status = np.where(which, self.model.pointStatus, intact)
 		return {pair: {mode: np.count_nonzero((self.pairs == pair) & (status == value)) for mode, value in modes.items()} for pair in self.bonded}
 
 	def share(self, pair):

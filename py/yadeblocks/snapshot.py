@@ -12,7 +12,7 @@ _lasting = (
 	"thickness", "planeStress", "reference", "zoneNodes", "firstNode", "firstZone", "firstEdge", "edgeNodes", "blockMaterial", "materialLabels",
 	"segmentNodes", "segmentBlocks", "segmentParameters"
 )
-_passing = "position velocity segmentArea normal pointOpening pointSlip pointSigma pointTau pointStatus pointDamage".split()
+_passing = "position velocity segmentArea normal pointOpening pointSlip pointSigma pointTau pointStatus pointDamage removedBlocks".split()
 
 
 class Snapshot:

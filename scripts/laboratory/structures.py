@@ -5,16 +5,17 @@ from pathlib import Path
 
 from .jobs import Job
 
+_curves = {"vtk": False, "sheets": False} # nothing else is drawn
 #: Scenario -> (quantities, three settings from cheap to dear).
 costs = {
 	"drywall": (("limit_multiplier", ), ({"precision": 2e-2, "steps": 1000}, {}, {"precision": 5e-4, "steps": 16000})),
 	"arch": (("limit_thickness_ratio", ), ({"precision": 2e-2}, {}, {"precision": 5e-4})),
-	"rocking": (("quarter_period", ), ({"kn": 1e8}, {}, {"kn": 1e12})), "disc": (("centre_stress", ), ({"zone": 4e-3, "vtk": False}, {"vtk": False}, {
-		"zone": 1e-3, "vtk": False
-	})), "triplet": (("cohesion", "friction"), ({"steps": 2500}, {}, {"steps": 40000})), "wall": (("peak_shear_force", "force_at_0.2_mm"), ({
-		"steps": 20000, "vtk": False, "sheets": False
-	}, {"vtk": False, "sheets": False}, {"steps": 160000, "vtk": False, "sheets": False}))
-}
+	"rocking": (("quarter_period", ), ({"kn": 1e8}, {}, {"kn": 1e12})),
+	"disc": (("centre_stress", ), ({"zone": 4e-3, "vtk": False}, {"vtk": False}, {"zone": 1e-3, "vtk": False})),
+	"diagonal": (("centre_tension_by_load", ), ({"zone": 0.06, "steps": 10000}, {}, {"zone": 0.01, "steps": 60000})),
+	"triplet": (("cohesion", "friction"), ({"steps": 2500}, {}, {"steps": 40000})),
+	"wall": (("peak_shear_force", "force_at_0.2_mm"), ({"steps": 20000, **_curves}, _curves, {"steps": 160000, **_curves})),
+} # yapf: disable
 
 
 def jobsOf(names=tuple(costs)):

@@ -43,7 +43,7 @@ def column():
 		]), pointSlip=np.array([5., 6., 7., 8.]), pointSigma=np.array([9., 10., 11., 12.]), pointTau=np.array([13., 14., 15., 16.]),
 		pointStatus=np.array([1, 2, 3, 3], np.uint8), pointDamage=np.array([1., 1., 0., 0.]), zoneStress=lambda: stress, cornerTriangles={
 			2: np.array([(8, 9, 10), (8, 10, 11)], np.int32)
-		}.get, planeStress=False, poisson=np.array([0.2, 0.3, 0.1]), normal=np.array([(0., 1.), (0.6, 0.8)])
+		}.get, planeStress=False, poisson=np.array([0.2, 0.3, 0.1]), normal=np.array([(0., 1.), (0.6, 0.8)]), removedBlocks=np.zeros(0, int)
 	)
 
 
@@ -310,6 +310,37 @@ def test_exportReadsBack(tmp_path):
 	assert list(cells["firstBlock"]) == [0, 0, 1, 1] and list(cells["secondBlock"]) == [1, 1, 2, 2]
 	assert list(cells["area"]) == [75e-6, 75e-6, 25e-6, 25e-6] and list(cells["damage"]) == [1, 1, 0, 0]
 	assert cells["normal"][0] == pytest.approx([0, 1, 0]) and cells["normal"][3] == pytest.approx([0.6, 0.8, 0])
+
+
+def test_removedBlocksAreInNoFile(tmp_path):
+	"""Block 0 has been removed: its two zones, its four grid points and its joint are not in the files; in those of the untouched model they are."""
+	model = column()
+	model.removedBlocks = np.array([0])
+	export.writeStates(tmp_path, export.State(model, 0, untouched=True), export.State(model, 1))
+	for name, before, after in (("blocks", [0, 0, 1, 1, 2, 2], [1, 1, 2, 2]), ("joints", [0, 0, 1, 1], [1, 1])):
+		for number, blocks in enumerate((before, after)):
+			mesh, cells = readBack(tmp_path / f"{name}_{number:04}.vtu")
+			assert cells["block" if name == "blocks" else "firstBlock"].tolist() == blocks
+	mesh, cells = readBack(tmp_path / "blocks_0001.vtu")
+	assert mesh.points[:, :2] == pytest.approx(model.position[4:]) and mesh.cells[0].data.min() == 0
+	corners = mesh.points[mesh.cells[0].data][0, :, :2]
+	assert corners == pytest.approx(model.position[model.zoneNodes[2]]) and cells["sxx"].tolist() == [0, -4, 0, 0]
+
+
+def test_removedBlocksAreInNoPicture(tmp_path):
+	"""The mortar, below, has been removed: nothing has its tone, and its cracks are neither drawn nor counted."""
+	import matplotlib.image
+	model = column()
+	mortar = tuple(int(pictures._blockTones["mortar"][i:i + 2], 16) / 255 for i in (1, 3, 5))
+	share = lambda path: (np.abs(matplotlib.image.imread(path)[..., :3] - mortar).max(axis=2) < 2e-3).mean()
+	assert share(pictures.drawCracks(tmp_path / "before.png", model)) > 0.1
+	model.removedBlocks = np.array([0])
+	assert share(pictures.drawCracks(tmp_path / "after.png", model)) == 0
+	from matplotlib.figure import Figure
+	axes = Figure().add_subplot()
+	assert not pictures._drawCrackLines(axes, model, model.position) # joint 0-1 is broken, 1-2 never was bonded
+	model.removedBlocks = np.array([2])
+	assert len(pictures._drawCrackLines(axes, model, model.position)) == 2
 
 
 def test_exportWithoutJoints(tmp_path):

@@ -150,3 +150,32 @@ def test_snapshotsStayAsTheyWere(column):
 	column.displacement[0] += 1e-3
 	assert np.array_equal(snap.position, before) and other.reference is snap.reference and list(snap.poisson) == [0.2, 0.2]
 	column.displacement[0] -= 1e-3
+
+
+def test_removedBlocksAreNotDrawn(column, tmp_path):
+	"""Every kind of picture, a film and a file: half of the column is gone and white, the values of what is left make the colours."""
+	from yadeblocks import pictures
+	column.displacement[:] = 0
+	column.displacement[column.firstNode[1]:] = (1e-6, 2e-6)
+	before = snapshot.Snapshot(column, 0.5)
+	column.remove([0])
+	after = snapshot.Snapshot(column, 0.6, like=before)
+	assert list(before.removedBlocks) == [] and list(after.removedBlocks) == [0]
+	area = lambda path: (matplotlib.image.imread(path)[..., :3].min(axis=2) < 0.985).mean()
+	draws = [(pictures.drawCracks, ()), (picturesfields.drawField, ('uy', )), (picturesfields.drawField, ('s1', )), (picturesfields.drawCrosses, ()),
+			(picturesfields.drawJoints, ('opening', ))]
+	for number, (draw, what) in enumerate(draws):
+		shares = [area(draw(tmp_path / f'{number}-{k}.png', model, *what)) for k, model in enumerate((before, after))]
+		assert shares[1] < 0.75 * shares[0], (draw, what, shares)
+	assert [picturesfields._View(model, None, None).magnification for model in (before, after)] == [500, 1] # 2 % of 40 mm by 1.1 um
+	export.writeStates(tmp_path, *(export.State(model, model.time) for model in (before, after)))
+	cells = [(tmp_path / f'{name}_000{number}.vtu').read_bytes().split(b'NumberOfCells="')[1].split(b'"')[0] for name in ('blocks', 'joints')
+			for number in (0, 1)]
+	assert int(cells[1]) == int(cells[0]) // 2 and cells[2:] == [b'4', b'0']
+	from PIL import Image
+	movie, frames = Image.open(picturesfields.drawMovie(tmp_path / 'a.gif', [before, after], 'cracks')), []
+	for number in (0, 1):
+		movie.seek(number)
+		picture = np.asarray(movie.convert('RGB')).astype(int)
+		frames.append((abs(picture - picture[0, 0]).max(axis=2) > 12).mean()) # not of the paper
+	assert frames[1] < 0.75 * frames[0], frames

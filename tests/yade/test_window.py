@@ -48,6 +48,12 @@ try: window.show(colour='blue')
 except ValueError as error: print('REFUSED', error)
 O.bodies[0].shape.color = (0, 0, 1)
 picture('own')
+m.remove(list(range(m.blockCount - 2)))
+O.bodies[m.bodyOf(m.blockCount - 2)].shape.color = (0, 1, 0)
+picture('removed')
+picture('removedStress', colour='sxx')
+left = m.zoneStress()[m.firstZone[m.blockCount - 2]:, 0]
+assert Gl1_Block.shownRange == (left.min(), left.max()), (Gl1_Block.shownRange, left)
 print('DRAWN')
 sys.stdout.flush()
 os._exit(0)
@@ -78,3 +84,4 @@ def test_blocksAreDrawnInARealWindow(tmp_path):
 	assert shareOf('cracked', red) > 0.0005
 	assert shareOf('damage', (0.2, 0.3, 1)) > 0.02 # what is whole is blue
 	assert shareOf('own', (0, 0, 1)) > 0.003
+	assert shareOf('removed', red) == 0 and shareOf('removed', (0, 0, 1)) == 0 and shareOf('removed', (0, 1, 0)) > 0.01

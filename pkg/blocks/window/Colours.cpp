@@ -14,6 +14,7 @@ namespace {
 		vector<Real> broken(a.blockCount(), 0), all(a.blockCount(), 0);
 		for (int i = 0; i < a.joints.count(); ++i) {
 			const blocks::Segment& joint = a.joints.segments[i];
+			if (a.isRemoved(joint.block[0]) || a.isRemoved(joint.block[1])) continue;
 			for (int k : { 0, 1 })
 				for (int block : joint.block) {
 					all[block] += joint.area;
@@ -45,10 +46,12 @@ const vector<string>& colourings()
 Coloured colouredBy(const string& what, const blocks::BlockAssembly& a, const Vector2r& range)
 {
 	Coloured out;
-	out.zone.resize(a.zoneCount());
+	out.zone.assign(a.zoneCount(), std::numeric_limits<Real>::quiet_NaN());
 	out.block.assign(a.blockCount(), std::numeric_limits<Real>::quiet_NaN()); // rigid blocks have no stress
 	const vector<Real> damage = what == "damage" ? damageOfBlocks(a) : vector<Real>();
+	Real               low = std::numeric_limits<Real>::infinity(), high = -low;
 	for (int b = 0; b < a.blockCount(); ++b) {
+		if (a.isRemoved(b)) continue;
 		if (what == "damage") out.block[b] = damage[b];
 		if (what == "displacement") out.block[b] = a.state.displacement[a.mesh.firstNode[b]].norm();
 		for (int z = a.mesh.firstZone[b]; z < a.mesh.firstZone[b + 1]; ++z) {
@@ -60,16 +63,15 @@ Coloured colouredBy(const string& what, const blocks::BlockAssembly& a, const Ve
 				out.zone[z]   = ((u[n[0]] + u[n[1]] + u[n[2]]) / 3).norm();
 			} else
 				out.zone[z] = stressOf(what, blocks::cauchyStress(a, b, z));
+			low = std::min(low, out.zone[z]), high = std::max(high, out.zone[z]);
 		}
 	}
 	if (range[0] != range[1])
 		out.low = range[0], out.high = range[1];
 	else if (what == "damage")
 		out.low = 0, out.high = 1;
-	else if (!out.zone.empty()) {
-		const auto [low, high] = std::minmax_element(out.zone.begin(), out.zone.end());
-		out.low = *low, out.high = *high;
-	}
+	else if (low <= high)
+		out.low = low, out.high = high;
 	return out;
 }
 

@@ -10,7 +10,7 @@ const vector<string>& colourings();
 
 /// A value for each zone, and for each rigid block, and the range that the colours span.
 struct Coloured {
-	vector<Real> zone, block; ///< block: of rigid ones; no number where they have no such value
+	vector<Real> zone, block; ///< block: of rigid ones; no number where they have no such value or have been removed
 	Real         low = 0, high = 1;
 };
 

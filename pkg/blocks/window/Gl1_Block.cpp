@@ -117,7 +117,8 @@ namespace {
 		glLineWidth(3);
 		glColor3d(0.85, 0.1, 0.1);
 		glBegin(GL_LINES);
-		for (; pair != pairs.end() && pair->block[0] == block; ++pair)
+		for (; pair != pairs.end() && pair->block[0] == block; ++pair) {
+			if (a.isRemoved(pair->block[1])) continue;
 			for (int i = pair->first; i < pair->last; ++i) {
 				const auto broken = [](blocks::Joint s) { return s == blocks::Joint::brokenInTension || s == blocks::Joint::brokenInShear; };
 				if (!broken(a.state.status[2 * i]) && !broken(a.state.status[2 * i + 1])) continue;
@@ -130,6 +131,7 @@ namespace {
 				for (int k : { 0, 1 })
 					pen.to(face(2, 3, g.s2[k]));
 			}
+		}
 		glEnd();
 	}
 

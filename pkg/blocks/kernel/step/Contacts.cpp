@@ -342,12 +342,12 @@ PointStresses pointStresses(const BlockAssembly& a, int first, int last)
 	PointStresses out { part(a.state.sigma), part(a.state.tau) };
 	for (int i = first; i < last; ++i) {
 		if (!a.state.released[i]) continue;
-		const Segment&           g       = a.joints.segments[i];
-		const int                contact = contactOf(a, g.block[0], g.block[1]);
+		const Segment& g       = a.joints.segments[i];
+		const int      contact = contactOf(a, g.block[0], g.block[1]);
+		if (contact < 0) continue; // also of removed blocks, maybe without any contact in the scene
 		const std::array<int, 2> key { a.contacts.edgeFrom[g.node[0]], a.contacts.edgeFrom[g.node[2]] };
-		if (contact < 0) continue;
-		const auto& edges = a.state.contacts[contact].edges;
-		const auto  at = std::lower_bound(edges.begin(), edges.end(), key, [](const EdgePair& e, const std::array<int, 2>& k) { return e.edge < k; });
+		const auto&              edges = a.state.contacts[contact].edges;
+		const auto at = std::lower_bound(edges.begin(), edges.end(), key, [](const EdgePair& e, const std::array<int, 2>& k) { return e.edge < k; });
 		if (at == edges.end() || at->edge != key || !at->touching) continue;
 		for (int k : { 0, 1 })
 			out.sigma[2 * (i - first) + k] = at->sigma[k], out.tau[2 * (i - first) + k] = at->tau[k];
