@@ -219,7 +219,7 @@ with Session(p) as session:
 		labels=('slip across the mortar layer [mm]', 'shear stress [N/mm²]'), title='Couplet in shear, precompression %g N/mm²' % (p.sigma / 1e6),
 		references=[
 			pictures.Reference(name + ', Van der Pluijm 1993', value or 0)
-			for name, value in (('peak', peakExpected[0]), ('residual', residualExpected[0]))
+			for name, value in (('peak', peakExpected[0]), ('residual', residualExpected[0]))[:1 + p.afterPeak]
 		]
 	)
 scenario.waitIfBatch()
