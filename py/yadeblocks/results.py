@@ -50,7 +50,6 @@ class Cracks:
 		self.steep = (along[:, 1] > np.tan(np.pi / 3) * along[:, 0]).repeat(2)
 		self.first, self.firstPoint = ((math.nan, math.nan), ""), -1
 		self.highest, self.atPeak = -math.inf, {}
-		known('first crack', self._lookForFirst) # also for the engine of a scene that was saved
 
 	@property
 	def kept(self):
@@ -64,6 +63,7 @@ class Cracks:
 	def kept(self, kept):
 		self.areas, self.bonded, self.highest, self.atPeak = np.array(kept["areas"]), kept["bonded"], kept["highest"], kept["atPeak"]
 		self.first, self.firstPoint = (tuple(kept["first"][0]), kept["first"][1]), kept["firstPoint"]
+		known('first crack', self._lookForFirst) # for the engine of the scene that was saved
 
 	def noteStress(self, stress):
 		"""Takes the present stress, so that `atPeak` are the `counts` of the moment at which it was highest."""
