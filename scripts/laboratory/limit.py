@@ -33,13 +33,12 @@ def study(command):
 	base = {**command.settings, **({"afterPeak": False, "contact": False, "sheets": False} if command.stem == "shear" else {})}
 	points, steps = product(base), p.slow or usual[command.stem]
 	asked = [{**point, **settings(steps)} for point in points for settings in runs.values()]
-	measured = iter(command.measure(asked, range(p.seed, p.seed + p.seeds)))
+	measured = command.measure(asked, range(p.seed, p.seed + p.seeds))
+	why, each = reasons(record for records in measured for record in records.values()), iter(measured)
 	varied = [key for key in base if len({str(point[key]) for point in points}) > 1]
-	rows, why = [], {}
+	rows = []
 	for point in points:
-		found = {name: next(measured) for name in runs}
-		for records in found.values():
-			why.update(reasons(records.values()))
+		found = {name: next(each) for name in runs}
 		label = settingsKey({key: point[key] for key in varied}) or command.stem
 		rows += [
 			row(label, seed, {name: records[seed]["reported"] for name, records in found.items()}) for seed in found["events"]
@@ -74,9 +73,12 @@ def markdown(rows, why):
 		"|---|---|---|---|---|---|---|---|---|---|---|"
 	]
 	for r in rows:
-		percent = [f"{100 * r[name]:+.2f}" for name in ("off", "rate", "inertia", "known_to", "first_crack_off")]
+		percent = [f"{100 * r[name]:+.2f}" for name in ("off", "rate", "inertia", "first_crack_off")]
 		agrees, first = ("yes" if r[name] else "no" for name in ("agrees", "same_first_crack"))
-		cells = [r["point"], str(r["seed"]), f"{r['events']:.5f}", f"{r['slow']:.5f}", *percent[:4], agrees, first, percent[4]]
+		cells = [
+			r["point"],
+			str(r["seed"]), f"{r['events']:.5f}", f"{r['slow']:.5f}", *percent[:3], f"{100 * r['known_to']:.2f}", agrees, first, percent[3]
+		]
 		lines.append(f"| {' | '.join(cells)} |")
 	lines += ["", f"- Peaks agree in {sum(r['agrees'] for r in rows)} of {len(rows)}, first cracks in {sum(r['same_first_crack'] for r in rows)}."
 			] + [f"- {count} failed: {reason}" for reason, count in why.items()]

@@ -128,20 +128,26 @@ TEST(OverlapWatch, ABlockInAHoleOrANotchIsNotWithinTheOther)
 	EXPECT_EQ(watch.through, (std::array<int, 2> { 1, 0 }));
 }
 
-TEST(OverlapWatch, SeesAZoneThatHasTurnedInsideOut)
+TEST(StabilityWatch, SeesAZoneThatHasTurnedInsideOutOrIsNoNumber)
 {
 	BlockAssembly a = twoMeshes();
-	OverlapWatch  watch;
-	watch.look(a);
 	EXPECT_EQ(firstInverted(a), -1);
+	EXPECT_TRUE(StabilityWatch().look(a, 0, 0, 1e-9).stable);
 	rotateAbout(a, { 0.3, 0.2 }, 2, { 1, 0 }); // turning is none of that
-	watch.look(a);
 	EXPECT_EQ(firstInverted(a), -1);
+	EXPECT_TRUE(StabilityWatch().look(a, 0, 0, 1e-9).stable);
 	const int  n  = a.mesh.firstNode[1];
 	const Vec2 at = a.position(n);
 	a.place(n, a.position(n + 1)), a.place(n + 1, at);
-	watch.look(a);
 	EXPECT_EQ(firstInverted(a), 1);
+	StabilityWatch::Verdict verdict = StabilityWatch().look(a, 0, 0, 1e-9);
+	EXPECT_FALSE(verdict.stable);
+	EXPECT_EQ(verdict.block, 1);
+	EXPECT_EQ(verdict.reason, "a zone has turned inside out");
+	a.state.displacement[n].x() = std::nan("");
+	verdict                     = StabilityWatch().look(a, 0, 0, 1e-9);
+	EXPECT_EQ(verdict.block, 1);
+	EXPECT_EQ(verdict.reason, "the motion of a grid point is not a number");
 }
 
 TEST(StabilityWatch, WarnsOnceOfThickJointsAndStopsWhereTheirMeanIsTooThick)

@@ -96,10 +96,9 @@ TEST(Removal, AccountsSayWhatWasTakenOut)
 	EXPECT_LT(worst, 1e-5 * before);
 }
 
-TEST(Removal, ContactsAreForgotten)
+/// Four dry bricks on a held foot, by general contact.
+BlockAssembly dryPile()
 {
-	// Four dry bricks; without the two in the middle, the upper falls freely through where they were, also the one that it never touched: v = g t, half a
-	// step ahead, until it meets the lowest.
 	JointParams dry = elasticJoint(5e9, 2e9);
 	dry.tension = dry.cohesion = 0;
 	BlockAssembly a            = column(4, 0.8, 0.5, 1, 1, stone(), dry, 0.4);
@@ -109,7 +108,15 @@ TEST(Removal, ContactsAreForgotten)
 	a.addGroup(driven("foot", dofs(a, 1, [](const Vec2& x) { return x.y() == 0; }), 0));
 	addGravity(a, { 0, -9.81 });
 	setGeneralContact(a, true);
-	const Real dt = 0.3 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
+	return a;
+}
+
+TEST(Removal, ContactsAreForgotten)
+{
+	// Four dry bricks; without the two in the middle, the upper falls freely through where they were, also the one that it never touched: v = g t, half a
+	// step ahead, until it meets the lowest.
+	BlockAssembly a  = dryPile();
+	const Real    dt = 0.3 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
 	run(a, dt, 50);
 	EXPECT_FALSE(a.contacts.order.empty());
 	removeBlocks(a, { 1, 2 });
@@ -150,17 +157,9 @@ TEST(Removal, WhatIsLeftStandsOnItsContacts)
 {
 	// A dry pile of four on a held foot, the upper two taken out, then the third, when the pile has come to rest. Each time the contact that is left
 	// carries the weight of what is above it, the balance of energy holds, and no contact names a block that is gone.
-	JointParams dry = elasticJoint(5e9, 2e9);
-	dry.tension = dry.cohesion = 0;
-	BlockAssembly a            = column(4, 0.8, 0.5, 1, 1, stone(), dry, 0.4);
-	for (int i = 0; i < a.joints.count(); ++i)
-		a.setJoints(i, i + 1, dry, Joint::unbonded);
-	a.joints.ofMaterials = { a.addKind(neverBonded(dry)) };
-	a.addGroup(driven("foot", dofs(a, 1, [](const Vec2& x) { return x.y() == 0; }), 0));
-	addGravity(a, { 0, -9.81 });
-	setGeneralContact(a, true);
-	const Real dt = 0.3 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
-	Damping    local;
+	BlockAssembly a  = dryPile();
+	const Real    dt = 0.3 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
+	Damping       local;
 	local.alpha       = 0.5;
 	Real       booked = 0, pending = 0, worst = 0, most = 0;
 	const auto settle = [&] {
