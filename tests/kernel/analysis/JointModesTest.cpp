@@ -72,29 +72,27 @@ TEST(JointModes, FollowTheLawOnAnyPath)
 		EXPECT_GT(kind, 30); // every mode is an end often enough for the test to mean something
 }
 
-TEST(JointModes, AnOpenPointThatClosesByItsSlipSlidesOn)
+TEST(JointModes, WhatSlidWhileItWasOpenLiftsNothing)
 {
-	// It parts at 0.02 m per m of slip, less than the 0.1 by which slip lifts it: after 1e-6/(0.1 - 0.02) m it touches, without any stress.
-	// If it stuck there, the same motion would open it at once. Sliding, it comes under the pressure ke (psi - 0.02) x further slip.
+	// It closes at its old uplift, slides on at once, since an open point has no friction, and lifts by what it slides from there on.
 	const JointParams p = params(0.1, 1e30, 0);
 	for (Real sign : { 1., -1. }) {
 		ModePoint m;
 		m.mode  = Mode::open;
-		m.state = { sign * 3e-6, 0.3e-6, Joint::brokenInTension };
-		Vec2             at(0.3e-6 + 1e-6, sign * 3e-6);
-		const Vec2       rate(0.02, sign);
-		const PointLimit closes = nextLimit(p, m, at[0], at[1], rate[0], rate[1], 1e-12);
-		ASSERT_NEAR(closes.at, 1e-6 / 0.08, 1e-9 * closes.at);
-		at += closes.at * rate;
+		m.state = { sign * 3e-6, 0.1e-6, Joint::brokenInTension };
+		Vec2       at(0.1e-6 + 1e-6, sign * 3e-6);
+		const Vec2 rate(-0.5, sign);
+		PointLimit next = nextLimit(p, m, at[0], at[1], rate[0], rate[1], 1e-12);
+		ASSERT_EQ(next.what, PointEvent::closes);
+		ASSERT_NEAR(next.at, 2e-6, 1e-15);
+		at += next.at * rate;
 		rememberSlip(p, m, at[0], at[1]);
-		m = after(p, m, closes.what, at[0], at[1]);
-		ASSERT_EQ(m.mode, Mode::slide);
-		EXPECT_EQ(m.sign, sign);
-		EXPECT_TRUE(m.dilating);
-		EXPECT_GT(nextLimit(p, m, at[0], at[1], rate[0], rate[1], 1e-12).at, 1); // up to the limit slip, 1e30 m away
-		const Stress there = stressOf(p, m, at[0] + 1e-6 * rate[0], at[1] + 1e-6 * rate[1]);
-		const Real   ke    = p.kn / (1 + p.kn * p.tanPhiResidual * p.tanDilation / p.ks);
-		EXPECT_NEAR(there.sigma, -ke * 0.08 * 1e-6, 1e-9 * ke * 1e-6);
+		const Real   was   = m.state.slipPlastic;
+		const Vec2   to    = at + 1e-6 * rate;
+		const Stress there = walkByModes(p, m, at, to);
+		EXPECT_EQ(m.mode, m.dilating ? Mode::slide : Mode::stick);
+		EXPECT_NEAR(m.state.uplift, 0.1e-6 + 0.1 * sign * (m.state.slipPlastic - was), 1e-15);
+		EXPECT_NEAR(there.sigma, p.kn * (to[0] - m.state.uplift), 1e-9 * p.kn * 1e-6);
 	}
 }
 

@@ -5,8 +5,8 @@
 /// The brittle joint law (JointLaw.hpp) piece by piece. As long as a contact point stays in one mode, its stresses are linear in opening and slip:
 ///   intact, stick:    sigma = kn (un - uplift),   tau = ks (us - slipPlastic)
 ///   slide, sign s:    tau = s (c - mu sigma), c and mu the residual ones,   slipPlastic = us - tau/ks,   and
-///                     sigma = kn (un - uplift), or while it dilates, uplift = psi s slipPlastic:
-///                     sigma = ke (un - psi (s us - c/ks)),   ke = kn / (1 + kn mu psi/ks)
+///                     sigma = kn (un - uplift), or while it dilates, uplift = psi s slipPlastic - lag:
+///                     sigma = ke (un + lag - psi (s us - c/ks)),   ke = kn / (1 + kn mu psi/ks)
 ///   open:             0,   slipPlastic = us
 /// A mode ends where `nextLimit` says. Where an intact point breaks, the stress jumps; everywhere else it is continuous (but where a
 /// joint with a residual cohesion or tension opens).
@@ -15,26 +15,13 @@ namespace blocks {
 enum class Mode : std::uint8_t { intact, stick, slide, open };
 
 /// What may happen to a contact point, in the order in which the law asks.
-enum class PointEvent : std::uint8_t {
-	none,
-	tension,
-	shearForward,
-	shearBackward,
-	opens,
-	closes,
-	closesForward,  ///< by slip that lifts it: it goes on sliding
-	closesBackward, ///< the same the other way
-	slipsForward,
-	slipsBackward,
-	sticks,
-	dilates,
-	dilationEnds
-};
+enum class PointEvent : std::uint8_t { none, tension, shearForward, shearBackward, opens, closes, slipsForward, slipsBackward, sticks, dilates, dilationEnds };
 
 struct ModePoint {
 	Mode       mode     = Mode::intact;
 	bool       dilating = false;
 	Real       sign     = 0; ///< of the slip, where it slides
+	Real       lag      = 0; ///< while it dilates: uplift that its slip has not brought, see `lifted` [m]
 	JointState state;
 };
 
@@ -55,7 +42,7 @@ inline Stress stressOf(const JointParams& p, const ModePoint& m, Real un, Real u
 		return {};
 	case Mode::slide: {
 		const Real c     = p.cohesionResidual;
-		const Real sigma = m.dilating ? slidingStiffness(p, m) * (un - p.tanDilation * (m.sign * us - c / p.ks)) : p.kn * (un - m.state.uplift);
+		const Real sigma = m.dilating ? slidingStiffness(p, m) * (un + m.lag - p.tanDilation * (m.sign * us - c / p.ks)) : p.kn * (un - m.state.uplift);
 		return { sigma, m.sign * (c - p.tanPhiResidual * sigma) };
 	}
 	default:
@@ -83,7 +70,7 @@ inline void rememberSlip(const JointParams& p, ModePoint& m, Real un, Real us)
 {
 	if (m.mode != Mode::slide && m.mode != Mode::open) return;
 	m.state.slipPlastic = us - stressOf(p, m, un, us).tau / p.ks;
-	m.state.uplift      = std::max(m.state.uplift, uplift(p, m.state.slipPlastic));
+	if (m.dilating) m.state.uplift = std::max(m.state.uplift, uplift(p, m.state.slipPlastic) - m.lag);
 }
 
 /// Whether more slip that way lifts the joint further.
@@ -98,21 +85,19 @@ inline ModePoint sliding(const JointParams& p, ModePoint m, Real sign)
 	m.mode     = Mode::slide;
 	m.sign     = sign;
 	m.dilating = dilatesBySliding(p, m.state, sign);
+	m.lag      = m.dilating ? uplift(p, m.state.slipPlastic) - m.state.uplift : 0;
 	return m;
 }
 
-/// An intact point that breaks at this opening and slip: the law's answer in the same step. Where its slip lifts the joint, the pressure that this
-/// brings makes it stick: the law counts the uplift from the next step on.
+/// An intact point that breaks at this opening and slip: the law's answer in the same step.
 inline ModePoint broken(const JointParams& p, ModePoint m, PointEvent how, Real un, Real us)
 {
 	const Stress trial = stressOf(p, m, un, us);
-	const Real   lift  = m.state.uplift;
 	m.state.status     = how == PointEvent::tension ? Joint::brokenInTension : Joint::brokenInShear;
 	m.sign             = trial.tau < 0 ? -1 : 1;
 	m.mode             = trial.sigma < p.tensionResidual && how != PointEvent::tension ? Mode::slide : Mode::open;
 	rememberSlip(p, m, un, us);
-	if (m.mode == Mode::slide && m.state.uplift > lift) m.mode = Mode::stick;
-	return m;
+	return m.mode == Mode::slide ? sliding(p, m, m.sign) : m;
 }
 
 /// The mode after an event of a broken point; `broken` for the others.
@@ -133,14 +118,13 @@ inline ModePoint after(const JointParams& p, ModePoint m, PointEvent what, Real 
 		m.mode     = Mode::stick;
 		m.dilating = false;
 		return m;
-	case PointEvent::closesForward:
 	case PointEvent::slipsForward:
 		return sliding(p, m, 1);
-	case PointEvent::closesBackward:
 	case PointEvent::slipsBackward:
 		return sliding(p, m, -1);
 	case PointEvent::dilates:
 		m.dilating = true;
+		m.lag      = 0;
 		return m;
 	case PointEvent::dilationEnds:
 		m.dilating = false;
@@ -192,7 +176,7 @@ inline PointLimit nextLimit(const JointParams& p, const ModePoint& m, Real un, R
 		ask(PointEvent::sticks, 0, -slipRate, still);
 		if (m.dilating)
 			ask(PointEvent::dilationEnds, p.dilationLimitSlip - slip, slipRate, still);
-		else if (p.tanDilation > 0 && m.state.uplift < p.tanDilation * p.dilationLimitSlip)
+		else if (p.tanDilation > 0 && m.state.uplift < p.tanDilation * p.dilationLimitSlip && slip <= m.state.uplift / p.tanDilation)
 			ask(PointEvent::dilates, m.state.uplift / p.tanDilation - slip, slipRate, still);
 		break;
 	}
@@ -202,19 +186,6 @@ inline PointLimit nextLimit(const JointParams& p, const ModePoint& m, Real un, R
 		if (m.state.uplift > 0 && gap < m.state.uplift - rounding * (std::abs(un) + m.state.uplift))
 			return { 0, PointEvent::closes }; // it broke that way
 		ask(PointEvent::closes, gap - m.state.uplift, -dun, still);
-		if (p.tanDilation > 0)
-			for (Real s : { 1., -1. }) { // slip of an open joint lifts it too, as the law has it
-				const Real reach = p.dilationLimitSlip, psi = p.tanDilation;
-				const Real speed = psi * s * dus - dun;
-				const Real at    = speed > 0 ? std::max(Real(0), gap - psi * s * us) / speed : first.at;
-				const Real slip  = s * (us + at * dus);
-				if (at < first.at && slip > 0 && slip <= reach)
-					ask(s > 0 ? PointEvent::closesForward : PointEvent::closesBackward, gap - psi * s * us, speed, still);
-				if (s * dus > still && std::isfinite(reach) && reach < std::numeric_limits<Real>::max()) { // ... up to the limit slip
-					const Real arrives = (reach - s * us) / (s * dus);
-					if (arrives >= 0 && arrives < first.at && gap + arrives * dun <= psi * reach) first = { arrives, PointEvent::closes };
-				}
-			}
 		break;
 	}
 	}

@@ -54,20 +54,45 @@ struct JointStep {
 	JointState state;
 };
 
-/// The uplift that goes with a plastic slip, so far the largest.
+/// The uplift that goes with a plastic slip, if all of it was sliding under pressure.
 inline Real uplift(const JointParams& p, Real slipPlastic) { return p.tanDilation * std::min(std::abs(slipPlastic), p.dilationLimitSlip); }
+
+/// Friction of a broken joint that is closed, under the normal stress `sigma`.
+inline JointStep rubbed(const JointParams& p, const JointState& old, Real us, Real sigma)
+{
+	const Real tau = p.ks * (us - old.slipPlastic), limit = std::max(Real(0), p.cohesionResidual - sigma * p.tanPhiResidual);
+	JointStep  now { sigma, std::clamp(tau, -limit, limit), old };
+	if (now.tau != tau) now.state.slipPlastic = us - now.tau / p.ks;
+	return now;
+}
+
+/// The same, where its slip lifts it: all at the end of the step, in which the pressure brings friction and friction takes slip. `flat` is what it does if it
+/// is not lifted. What it slid in breaking, or while it was open, lifts nothing; reversal takes nothing back.
+inline JointStep dilated(const JointParams& p, const JointState& old, Real un, Real us, const JointStep& flat)
+{
+	if (flat.state.slipPlastic == old.slipPlastic) return flat;
+	const Real way = flat.state.slipPlastic < old.slipPlastic ? -1 : 1, without = std::max(Real(0), uplift(p, old.slipPlastic) - old.uplift);
+	if (!(way * flat.state.slipPlastic > 0 && uplift(p, flat.state.slipPlastic) - without > old.uplift)) return flat;
+	const Real smooth = p.kn * (un + without - p.tanDilation * way * us), share = p.kn * p.tanDilation / p.ks;
+	const Real rough = std::max(Real(0), p.cohesionResidual - p.tanPhiResidual * smooth) / (1 + p.tanPhiResidual * share);
+	JointStep  now   = rubbed(p, old, us, smooth + share * rough);
+	if (!(std::abs(now.state.slipPlastic) < p.dilationLimitSlip)) now = rubbed(p, old, us, p.kn * (un + without - p.tanDilation * p.dilationLimitSlip));
+	now.state.uplift = std::max(old.uplift, uplift(p, now.state.slipPlastic) - without);
+	return now;
+}
 
 /// One step from `old`, for the opening un [m] and the slip us [m], both in total form:
 ///   sigma = kn (un - uplift),  tau = ks (us - slipPlastic).
 /// An intact joint breaks where sigma > tension, or else where |tau| > cohesion - sigma tan(phi); the strengths drop to the
 /// residual ones in the same step; a joint that was never bonded has them from the start. A broken joint that is open carries nothing; closed, |tau| <= c_res -
-/// sigma tan(phi_res).
+/// sigma tan(phi_res). Only what was broken before and is closed dilates, as far as it slides outwards. So the pressure that lifting costs comes from friction
+/// alone, which is never less.
 inline JointStep advance(const JointParams& p, JointState old, Real un, Real us)
 {
 	const Real sigma = p.kn * (un - old.uplift);
-	const Real tau   = p.ks * (us - old.slipPlastic);
-
-	if (old.status == Joint::intact) {
+	const bool whole = old.status == Joint::intact;
+	if (whole) {
+		const Real tau = p.ks * (us - old.slipPlastic);
 		if (sigma > p.tension)
 			old.status = Joint::brokenInTension;
 		else if (std::abs(tau) > p.cohesion - sigma * p.tanPhi)
@@ -75,16 +100,9 @@ inline JointStep advance(const JointParams& p, JointState old, Real un, Real us)
 		else
 			return { sigma, tau, old };
 	}
-
-	JointStep now { 0, 0, old };
-	if (sigma <= p.tensionResidual) { // closed: friction; it is closed at no stress, too
-		const Real limit = std::max(Real(0), p.cohesionResidual - sigma * p.tanPhiResidual);
-		now.sigma        = sigma;
-		now.tau          = std::clamp(tau, -limit, limit);
-	}
-	if (now.tau != tau) now.state.slipPlastic = us - now.tau / p.ks;
-	now.state.uplift = std::max(old.uplift, uplift(p, now.state.slipPlastic)); // reversal of the slip takes nothing back
-	return now;
+	if (sigma > p.tensionResidual) return { 0, 0, { us, old.uplift, old.status } };
+	const JointStep flat = rubbed(p, old, us, sigma); // it is closed at no stress, too
+	return p.tanDilation > 0 && !whole ? dilated(p, old, un, us, flat) : flat;
 }
 
 /// Elastic energy per area that the two springs of a contact point hold [J/m2].
