@@ -190,7 +190,7 @@ TEST(EventPath, KeepsEquilibriumLimitsAndEnergy)
 				ASSERT_LT(std::abs(path.energy().error()), 1e-9 * most) << seed << " " << i; // sums of hundreds of pieces
 			}
 			EXPECT_GT(path.cracks().size(), 5u);
-			EXPECT_LT(path.residual(), 1e-11);
+			EXPECT_LT(path.residual(), EventPath::wrong / 10); // 1e-13 but in one, before it is put right with the next direction
 			EXPECT_LT(path.inadmissible(), 1e-9);
 			EXPECT_GT(path.leastFriction(), -1e-9); // tan phi_res exceeds psi, so friction never gives
 			EXPECT_GT(path.leastExcess(), -1e-9);

@@ -392,12 +392,13 @@ bool EventPath::note(int point, PointEvent how)
 	const bool pushed = m.unknowns > 0 && !m.loadGrowth.isZero(0);
 	notedAt           = stepCount;
 	measure();
-	constexpr Real enough = 1e-11; // beyond it, what rounding has left is put right
+	constexpr Real enough = 1e-11; // then what rounding has left is put right with the next direction
 	Real           left   = imbalance();
-	if (!(left < enough)) {
+	if (!(left < wrong)) {
 		refresh();
 		left = imbalance();
 	}
+	if (!(left < enough)) changes = refreshAfter;
 	worstResidual = std::max(worstResidual, left);
 	if (!(left < wrong)) return end("equilibrium is lost: " + shown(left) + " of the largest force at a contact point is unbalanced");
 	here.lambda       = is.lambda;
