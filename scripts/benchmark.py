@@ -14,8 +14,9 @@ experiment=structures runs the other scenarios, each at three costs, against the
 	mode=calibrate  goes on with the calibration of YADE's models (model=NAME: of this one only) from scripts/calibrated.json, and writes it; a report says
 			which calibrations were made with other code, targets, packings or ties than today's
 
-Errors are against the laboratory and against a reference of the same specimen: in tension and shear the exact peak (solver=events, which is a point of its
-own as well), in compression a slow run, whose own convergence is shown by one twice as fast (references of other specimens than the usual are half as slow).
+Errors are against the laboratory and against a reference of the same specimen: in tension and shear the exact peak (solver=events, release=cascade), in
+compression a slow run, whose own convergence is shown by one twice as fast (references of other specimens than the usual are half as slow). The solver is
+a point of its own, too.
 retry=true runs again what failed; jobs=1 keeps processes from slowing each other down, which shows in CPU times. scheduler=HOST:PORT, or a scheduler
 file, has the runs done by a cluster of dask.distributed that is there already (scripts/workers.sh; tls=FOLDER: with these certificates).
 """
@@ -167,31 +168,34 @@ def points(mode, experiment):
 
 def blockPoints(mode, case, lines):
 	experiment, base = case.split()[0], {"vtk": False, "sheets": False, **stressOf(case)}
-	solver = {"solver": "events"} if experiment in exact else {}
+	whole, events = mode == "full" or case in middle, {"solver": "events"}
+	cascades = {**events, "release": "cascade"} # what slow steps come down to
+	alone = {"afterPeak": False} if experiment == "shear" else {} # nothing but the path, where that comes to the peak
+	solver = {} if experiment not in exact else cascades if whole else {**cascades, **alone}
 	known = lambda specimen: {} if "joints" in specimen else solver # the path from event to event is that of brittle joints
 	reference = lambda specimen: {**base, **specimen, **known(specimen), "steps": slow[mode][experiment] // (2 if specimen else 1)}
 	specimens = []
 	for knob, specimen, way in lines:
 		compared = knob == "softening" or (mode == "full" and case in middle and knob != "one set" and specimen != {"units": "plain"}
-							) if specimen else (mode == "full" or case in middle) # plain bricks never crush
+							) if specimen else (whole or experiment in exact) # plain bricks never crush
 		label = inWords({**way, **specimen}) if knob != "one set" else inWords(way) + ", the joints of tension"
 		yield Point(case, "blocks", knob, label, experiment, {**base, **specimen, **way}, reference(specimen) if compared else None)
 		if compared and specimen not in specimens: specimens.append(specimen)
 	for specimen in specimens:
 		yield Point(
 			case, "blocks", "reference",
-			inWords({**solver, **specimen} if known(specimen) else {"steps": reference(specimen)["steps"], **specimen}), experiment,
+			inWords({**known(specimen), **specimen} if known(specimen) else {"steps": reference(specimen)["steps"], **specimen}), experiment,
 			reference(specimen), reference(specimen), True
 		)
-	if {} not in specimens: return
-	way = {"steps": slow[mode][experiment] // (1 if solver else 2)}
-	yield Point(case, "blocks", "slow" if solver else "half as slow", inWords(way), experiment, {**base, **way}, reference({}))
-	if solver: # behind the peak of shear there are steps, not quite so slow
-		if experiment == "shear":
-			way = {**solver, "steps": slow[mode][experiment] // 4}
-			yield Point(case, "blocks", "solver", inWords(way), experiment, {**base, **way}, reference({}))
-		alone = {**solver, "afterPeak": False} if experiment == "shear" else solver
-		yield Point(case, "blocks", "solver", inWords(alone), experiment, {**base, **alone}, reference({}))
+	ways = [("slow" if solver else "half as slow", {"steps": slow[mode][experiment] // (1 if solver else 2)})] if whole else []
+	if experiment == "shear" and whole: # behind its peak there are steps, not quite so slow
+		ways.append(("solver", {**cascades, "steps": slow[mode][experiment] // 4}))
+	if experiment == "compression": # the path ends long before the peak: steps from there on
+		ways += [("solver", {**events, "steps": n}) for n in (5000, 10000)]
+	else:
+		ways += [("solver", {**way, **alone}) for way in (events, cascades)]
+	for knob, way in ways:
+		yield Point(case, "blocks", knob, inWords(way), experiment, {**base, **way}, reference({}))
 
 
 def yadePoints(mode, case, model, known):
@@ -240,8 +244,8 @@ def inWords(settings):
 		"steps": lambda n: f"{n / 1000:g}k steps", "size": lambda x: f"{1e3 * x:g} mm", "unitSize": lambda x: f"{1e3 * x:g}",
 		"joints": lambda which: f"{which} joints", "tail": lambda x: f"to {100 * x:g} %", "mortarSize": lambda x: f"/ {1e3 * x:g} mm",
 		"radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}", "units": lambda x: f"{x} units", "solver": lambda x: x,
-		"damping": lambda x: f"{x} damping", "servo": lambda on: "servo" if on else "no servo", "afterPeak": lambda on: "on behind the peak"
-		if on else "to the peak", "jump": lambda on: "jump" if on else "no jump"
+		"release": lambda x: f"{x}s", "damping": lambda x: f"{x} damping", "servo": lambda on: "servo"
+		if on else "no servo", "afterPeak": lambda on: "on behind the peak" if on else "to the peak", "jump": lambda on: "jump" if on else "no jump"
 	}
 	return " ".join(words.get(key, lambda x: f"{key} {x}")(value) for key, value in settings.items())
 

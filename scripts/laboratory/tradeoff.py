@@ -130,7 +130,7 @@ def reading(rows, names, limits=(0.05, 0.02, 0.01), most=10):
 			if slow.reference.get(name)
 		)
 		lines.append(
-			f"Errors are rms over {slow.reference[peak].seeds} seeds against each seed's own path from event to event; "
+			f"Errors are rms over {slow.reference[peak].seeds} seeds against each seed's own cascades from event to event; "
 			f"a slow run ({slow.label}) is off by: {moves}."
 		)
 	said = [text for text in (_bestFor(blocks, name, known.get(name), limits) for name in names) if text]
