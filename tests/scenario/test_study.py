@@ -393,7 +393,7 @@ def test_readingAgainstTheExactPath():
 	solver, slow = rowOf("events", 0.3, 0, knob="solver"), rowOf("80k steps", 0.01, 0.003, knob="slow")
 	lines = tradeoff.reading([row for row in study4 if not row.isReference] + [solver, slow], tradeoff.quantities["tension"])
 	text = "\n".join(lines)
-	assert "path from event to event; a slow run (80k steps) is off by: peak +0.3 % ± 0.15 %" in lines[0]
+	assert "cascades from event to event; a slow run (80k steps) is off by: peak +0.3 % ± 0.15 %" in lines[0]
 	assert "1 %: events (0.3 CPU s, 0 %)" in text and "slow run gives" not in text
 
 
