@@ -1,5 +1,5 @@
 #!/bin/bash
-# Random input, at scale: scripts/fuzz.sh part=geometry|scenes [count=N] [seed=N]. Ends with the number of cases that nothing explains, and fails if
+# Random input, at scale: scripts/fuzz.sh part=geometry|scenes|softening [count=N] [seed=N]. Ends with the number of cases that nothing explains, and fails if
 # there are any.
 # Each part is a program of its own in tests/fuzz/: `part` is looked up in the list below.
 set -euo pipefail
@@ -22,5 +22,6 @@ scripts/setup.sh --brief
 case "$part" in
 	geometry) build/tests/geometry_fuzz "$count" "$seed" ;;
 	scenes) build/tests/scene_fuzz "$count" "$seed" ;;
-	*) echo "part must be geometry or scenes, got '$part'" >&2; exit 2 ;;
+	softening) build/tests/scene_fuzz "$count" "$seed" 0 soften ;; # the same scenes with joints that soften
+	*) echo "part must be geometry, scenes or softening, got '$part'" >&2; exit 2 ;;
 esac

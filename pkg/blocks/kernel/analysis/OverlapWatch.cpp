@@ -81,6 +81,19 @@ bool OverlapWatch::entered(const BlockAssembly& a, int block, int other) const
 	return within(a, other, (a.position(n[0]) + a.position(n[1]) + a.position(n[2])) / 3, [&](int node) { return a.position(node); });
 }
 
+int firstStrayed(const BlockAssembly& a)
+{
+	for (int joint = 0; joint < a.joints.count(); ++joint) {
+		const int p = 2 * joint;
+		if (a.state.status[p] == Joint::intact || a.state.released[joint] || (a.state.sigma[p] == 0 && a.state.sigma[p + 1] == 0)) continue;
+		const auto& node = a.joints.segments[joint].node;
+		const Vec2  one = a.between(node[0], node[1]), other = a.between(node[2], node[3]);
+		const Real  slip = std::min(std::abs(a.state.slip[p]), std::abs(a.state.slip[p + 1]));
+		if (one.dot(other) > 0 || slip > one.norm() + other.norm()) return joint;
+	}
+	return -1;
+}
+
 int firstInverted(const BlockAssembly& a)
 {
 	for (int z = 0; z < a.zoneCount(); ++z) {

@@ -11,6 +11,9 @@ struct BlockAssembly;
 /// The block of the first zone that has turned inside out, or -1.
 int firstInverted(const BlockAssembly&);
 
+/// The first joint that acts, though its edges, which ran against each other, have slid past each other or turned by more than a right angle; or -1.
+int firstStrayed(const BlockAssembly&);
+
 /// Two edges, of two blocks, that overlap.
 struct Overlap {
 	std::array<int, 2> block { -1, -1 };

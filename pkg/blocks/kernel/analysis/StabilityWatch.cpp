@@ -43,6 +43,19 @@ namespace {
 			+ percent(o.share()) + " of the height of the zones behind (" + shown(o.height, 3) + " m)";
 	}
 
+	StabilityWatch::Verdict strayed(const BlockAssembly& a)
+	{
+		const int joint = firstStrayed(a);
+		if (joint < 0) return {};
+		const auto& node = a.joints.segments[joint].node;
+		return { false,
+			 a.blockOfNode(node[0]),
+			 "it acts on block " + std::to_string(a.blockOfNode(node[2]))
+			         + " by a joint whose edges have slid past each other, or turned against each other by more than a right angle; "
+			           "general contact follows blocks that come apart, once their joint has broken",
+			 {} };
+	}
+
 	/// What half a step of the present forces adds to the kinetic energy, dt v.f / 2.
 	Real kineticChange(const BlockAssembly& a, Real time, Real dt)
 	{
@@ -98,6 +111,8 @@ StabilityWatch::Verdict StabilityWatch::look(const BlockAssembly& a, long step, 
 			 "joints overlap by " + percent(overlaps.mean) + " of the height of the zones behind in the mean, most of all "
 			         + described(overlaps.joint) + cure };
 	}
+
+	if (const Verdict verdict = strayed(a); !verdict.stable) return verdict;
 
 	Real turnover = a.state.accounts.released.turnover + a.state.further.incoming;
 	for (const MotionGroup& g : a.state.groups)
@@ -182,7 +197,7 @@ StabilityWatch::Verdict StabilityWatch::lookAtEnd(const BlockAssembly& a)
 	if (bad >= 0) return { false, a.blockOfNode(bad), notANumber, {} };
 	const int inverted = firstInverted(a);
 	if (inverted >= 0) return { false, inverted, insideOut, {} };
-	return {};
+	return strayed(a);
 }
 
 long StabilityWatch::restore(BlockAssembly& a) const
