@@ -272,6 +272,8 @@ constexpr int finest = 32; ///< steps as short as this explain what is off with 
 
 const char* const energyOff = "unexplained: energy is off by ";
 
+const char* const strayed = "stopped: it acts on block";
+
 const char* const byFriction = "which friction gave";
 
 /// What became of a scene: empty if it is in balance, "stopped: ..." or "unexplained: ...". off: energy, as a share.
@@ -362,6 +364,8 @@ int main(int argc, char** argv)
 				Real        less  = 0;
 				std::string then  = outcome(again, less);
 				if (then.empty() && less < off / 2) text = "in balance with steps " + std::to_string(finer) + " times as short";
+				if (then.rfind(strayed, 0) == 0)
+					text = then + ", seen with steps " + std::to_string(finer) + " times as short"; // between two looks
 			}
 		} catch (const std::exception& error) {
 			const std::string sentence = error.what();

@@ -309,6 +309,31 @@ TEST(SofteningStep, JointsWithAnythingLeftStayJoints)
 	EXPECT_TRUE(released(hinge));
 }
 
+TEST(SofteningStep, AnEndThatStillHoldsLetsGoWhereTheEdgesHaveTurnedAway)
+{
+	// Two squares on each other; one end of their joint has broken, and the upper one has turned about the other end.
+	for (bool crushes : { false, true })
+		for (Real turn : { 1.5, 1.6 }) {
+			BlockAssembly a;
+			a.addMaterial(stone());
+			addGrid(a, { 0, 0 }, 0.4, 0.4, 1, 1);
+			addGrid(a, { 0, 0.4 }, 0.4, 0.4, 1, 1);
+			bondAll(a, softJoint());
+			a.setJoints(0, 1, softJoint(), Joint::intact, crushes ? capped() : energies());
+			for (int n = a.mesh.firstNode[1]; n < a.mesh.firstNode[2]; ++n) {
+				const Vec2 arm = a.mesh.reference[n] - Vec2(0, 0.4);
+				a.place(n, Vec2(0, 0.4) + std::cos(turn) * arm + std::sin(turn) * Vec2(-arm.y(), arm.x()));
+			}
+			const int torn           = a.joints.segments[0].s1[0] < 0.5 ? 0 : 1; // the first edge runs towards the end about which it turns
+			a.state.status[1 - torn] = Joint::softening;
+			a.state.status[torn]     = Joint::brokenInTension;
+			a.state.softened.k[torn] = softeningEnd;
+			a.contacts.wanted        = true;
+			prepareContacts(a);
+			EXPECT_EQ(bool(a.state.released[0]), turn > M_PI / 2 && !crushes); // free contacts have no cap
+		}
+}
+
 TEST(SofteningStep, ElasticJumpsEndBeforeItSoftens)
 {
 	// A column of two, pulled: 0.9 of the strength, and whole. With a cap, whose yielding is no event, there is no jump; nor a path beyond the first

@@ -87,9 +87,8 @@ int firstStrayed(const BlockAssembly& a)
 		const int p = 2 * joint;
 		if (a.state.status[p] == Joint::intact || a.state.released[joint] || (a.state.sigma[p] == 0 && a.state.sigma[p + 1] == 0)) continue;
 		const auto& node = a.joints.segments[joint].node;
-		const Vec2  one = a.between(node[0], node[1]), other = a.between(node[2], node[3]);
 		const Real  slip = std::min(std::abs(a.state.slip[p]), std::abs(a.state.slip[p + 1]));
-		if (one.dot(other) > 0 || slip > one.norm() + other.norm()) return joint;
+		if (edgesTurned(a, joint) || slip > a.between(node[0], node[1]).norm() + a.between(node[2], node[3]).norm()) return joint;
 	}
 	return -1;
 }

@@ -146,4 +146,11 @@ private:
 /// In place of a kind of joint: the joint is a free contact; the joints of a batch are of several kinds.
 constexpr int releasedKind = -1, mixedKinds = -2;
 
+/// Whether the edges of a joint, which ran against each other when it was bonded, have turned by more than a right angle.
+inline bool edgesTurned(const BlockAssembly& a, int joint)
+{
+	const auto& node = a.joints.segments[joint].node;
+	return a.between(node[0], node[1]).dot(a.between(node[2], node[3])) > 0;
+}
+
 } // namespace blocks

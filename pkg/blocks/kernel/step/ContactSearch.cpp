@@ -128,16 +128,18 @@ namespace {
 
 	Release releaseOf(const BlockAssembly& a, int joint)
 	{
-		const JointParams& p = a.joints.of(joint);
-		for (int i : { 2 * joint, 2 * joint + 1 })
-			if (a.state.status[i] == Joint::intact || a.state.status[i] == Joint::softening)
-				return Release::never; // until it breaks, which will be noticed
+		const JointParams& p      = a.joints.of(joint);
+		auto               broken = [&](int i) { return a.state.status[i] != Joint::intact && a.state.status[i] != Joint::softening; };
+		const int          ends   = broken(2 * joint) + broken(2 * joint + 1);
 		if (a.joints.softens(joint)) {
+			if (ends == 0 || a.joints.softeningOf(joint).cap.strength > 0) return Release::never; // free contacts have no cap
+			if (edgesTurned(a, joint)) return Release::now; // its law has lost its meaning: a fragment that turns about the other end
+			if (ends < 2) return Release::later;
 			const Softened& soft = a.state.softened;
-			if (a.joints.softeningOf(joint).cap.strength > 0) return Release::never; // free contacts have no cap
 			for (int i : { 2 * joint, 2 * joint + 1 })
 				if (a.state.status[i] != Joint::unbonded && soft.k[i] < softeningEnd) return Release::later; // some bond is left
 		}
+		if (ends < 2) return Release::never; // until it breaks, which will be noticed
 		for (int i : { 2 * joint, 2 * joint + 1 }) {
 			if (a.state.sigma[i] > 0) return Release::later; // residual tension stays with the point law
 			// so does a joint that goes on dilating, and one that rests on ends raised by different amounts, which a free contact would level
