@@ -116,7 +116,7 @@ class Motion:
 
 	def engine(self):
 		"""For the beginning of O.engines."""
-		return runner('motion of ' + self.group, self)
+		return runner('motion of ' + self.group, self, initRun=True) # PyRunner leaves out the first step else
 
 
 def _requireTable(name, times, values):

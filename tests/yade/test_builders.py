@@ -190,7 +190,7 @@ def test_mortarBetweenBricks():
 	model.bond(strong())
 	pairs = np.asarray(model.blockMaterial)[np.asarray(model.segmentBlocks)]
 	unit = model.materialLabels.index('unit')
-	assert not (pairs == unit).all(axis=1).any() and set(placed.joints(model)) == {'platen'} # mortar everywhere
+	assert not (pairs == unit).all(axis=1).any() and set(placed.joints(model)) == {'mortar'} # mortar everywhere
 	assert float(np.sum(model.zoneVolume)) == pytest.approx(0.1 * wall.areas.sum(), rel=1e-6)
 	with pytest.raises(ValueError, match='Mortared.gap must leave something'):
 		layout.Mortared(wall, 0.2)
