@@ -10,6 +10,8 @@
 Every call is one of BlockModel's (`drive`, `groupForce`, ...), and these go on working with the name."""
 import numpy as np
 
+from . import _calls
+
 
 class Group:
 	"""Grid points of a model with a name, as BlockModel.group returns them. `name`, `nodes` (ascending indices), `model`.
@@ -120,4 +122,4 @@ def group(self, name, nodes=None):
 def install(wrapper):
 	"""BlockModel.group."""
 	group.__qualname__ = "BlockModel.group"
-	wrapper.BlockModel.group = group
+	wrapper.BlockModel.group = _calls.door()(group)

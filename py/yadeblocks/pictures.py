@@ -14,6 +14,7 @@ from itertools import cycle
 import numpy as np
 
 from . import files
+from ._calls import door
 from .export import Present, blockOutlines, contactLines, pointNames, pointsOf
 from .results import Cracks, intact, modes
 
@@ -61,6 +62,7 @@ def drawCurve(path, curves, x, y, labels=None, references=(), title=""):
 	return path
 
 
+@door('magnification')
 def drawCracks(path, model, magnification=None, window=None, title="", names=None, joints=None):
 	"""The specimen in its deformed shape: blocks in the light tones of their materials, on top the cracks, coloured by joint type,
 	solid where the joint broke in tension, dashed where it broke in shear.

@@ -8,6 +8,7 @@
 	print(platen.force, platen.displacement, platen.throttle)"""
 import numpy as np
 
+from ._calls import door
 from .recording import runner
 
 
@@ -20,6 +21,7 @@ class Platen:
 
 	Errors: ValueError for a block that is not rigid, numbers that are none, a negative ramp and a servo's value beyond BlockServo's limits;
 	RuntimeError before insert()."""
+	@door('block', 'rampTime')
 	def __init__(self, model, block, velocity, rampTime=0.0, servo=None):
 		from yade.wrapper import Omega
 		self.model, self.block, self.velocity, self.rampTime = model, int(block), np.array(velocity, float), float(rampTime)

@@ -246,7 +246,8 @@ def test_namesInBondResultsAndPictures(tmp_path):
 	O.run(60, True)
 	counts = Cracks(model, joints).counts()
 	assert set(counts) == {'bed', 'head', 'unit'} and counts['head']['tension'] > 0 and not any(counts['bed'].values()) and not any(counts['unit'].values())
-	assert Cracks(model, joints).share('head') == 1 and set(Cracks(model).counts()) == {'unit-unit'}
+	assert Cracks(model, joints).share('head') == 1 and set(Cracks(model, {}).counts()) == {'unit-unit'}
+	assert Cracks(model).counts() == counts # names are kept in the model
 	assert pictures.drawCracks(tmp_path / 'a.png', model, names=joints).stat().st_size > 5000
 	model = BlockModel(thickness=0.1)
 	placed = wall.addTo(model, 'unit', zoneSize=0.1)

@@ -76,8 +76,16 @@ namespace {
 	/// One number for each of `count` joints, from one number or as many.
 	vector<Real> column(const py::object& values, const char* name, int count)
 	{
-		const py::object list = py::import("numpy").attr("asarray")(values, "float64").attr("ravel")().attr("tolist")();
-		const long       n    = py::len(list);
+		py::object list;
+		try {
+			list = py::import("numpy").attr("asarray")(values, "float64").attr("ravel")().attr("tolist")();
+		} catch (const py::error_already_set&) {
+			PyErr_Clear();
+			throw std::invalid_argument(
+				"BlockModel.setJoints: " + string(name) + " must be one number or one for each joint, " + std::to_string(count) + ", got "
+				+ string(py::extract<string>(values.attr("__repr__")())));
+		}
+		const long n = py::len(list);
 		if (n != 1 && n != count)
 			throw std::invalid_argument(
 				"BlockModel.setJoints: " + string(name) + " must be one number or one for each joint, " + std::to_string(count) + ", got "
