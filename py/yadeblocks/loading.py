@@ -101,7 +101,7 @@ class Motion:
 		self.model, self.group, self.start = model, group, Omega().time
 		if callable(values): self.at = values
 		else:
-			if np.ndim(values) == 0 or len(values) != 2:
+			if not hasattr(values, '__len__') or len(values) != 2:
 				raise ValueError(f'Motion.values must be a function of the time or a table (times, values), got {values!r}')
 			times, values = (np.asarray(column, float) for column in values)
 			_requireTable('Motion', times, values)

@@ -151,7 +151,7 @@ class _View:
 		self.low, self.high = pictures._window(reference, self.shown, self.there.nodes) if window is None else np.reshape(window, (2, 2))
 
 
-def _alone(path, model, draw, magnification, window, title, drop=30):
+def _alone(path, model, draw, magnification, window, title, drop=38):
 	view = _View(model, magnification, window)
 	size = view.high - view.low
 	width, height = size * min(pictures._textWidth / size[0], 1.2 * pictures._textWidth / size[1])
@@ -244,8 +244,14 @@ def _field(axes, view, what, most=None):
 	_bar(axes, colours, unit)
 
 
+def _pointsHigh(axes):
+	"""Height of the axes on the paper [points]: what stands below them keeps its distance whatever their size."""
+	return axes.get_position().height * axes.figure.get_figheight() / pictures._point
+
+
 def _bar(axes, colours, unit):
-	place = axes.inset_axes((0.1, -0.07, 0.8, 0.025))
+	points = _pointsHigh(axes)
+	place = axes.inset_axes((0.1, -12 / points, 0.8, 4 / points))
 	bar = axes.figure.colorbar(colours, cax=place, orientation="horizontal", extend="both")
 	bar.ax.tick_params(labelsize=6, width=0.4, length=2, pad=1)
 	bar.ax.set_xlabel(f"[{unit}]", fontsize=6, labelpad=1)
@@ -275,7 +281,7 @@ def _cross(axes, view):
 				zorder=3
 			), autolim=False
 		)
-	axes.text(0.5, -0.04, f"red tension, blue compression; the longest {most:.3g} {unit}", transform=axes.transAxes, ha="center", va="center", fontsize=6)
+	_note(axes, f"red tension, blue compression; the longest {most:.3g} {unit}")
 
 
 def _spread(places, view, most):
@@ -320,7 +326,7 @@ def _bars(axes, view, what, most=None, joints=None):
 	colours = np.where(values > 0, _red, _blue)
 	axes.add_collection(PolyCollection(corners, facecolors=colours, edgecolors=colours, linewidths=0.1, alpha=0.8, zorder=3), autolim=False)
 	sense = {"sigma": "red tension, blue compression", "opening": "red open, blue closed"}.get(what, "red and blue: the two senses")
-	axes.text(0.5, -0.04, f"{sense}; the highest {most:.3g} {unit}", transform=axes.transAxes, ha="center", va="center", fontsize=6)
+	_note(axes, f"{sense}; the highest {most:.3g} {unit}")
 
 
 def _joints(axes, view, joints):
@@ -380,4 +386,4 @@ def _reactions(axes, view):
 
 
 def _note(axes, text):
-	axes.text(0.5, -0.04, text, transform=axes.transAxes, ha="center", va="center", fontsize=6)
+	axes.text(0.5, -7 / _pointsHigh(axes), text, transform=axes.transAxes, ha="center", va="center", fontsize=6)
