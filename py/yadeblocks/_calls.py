@@ -2,7 +2,8 @@
 """What is said where our classes are called with a wrong type, a word that is not known or too few arguments: a sentence with name, rule and value, in
 place of Boost's list of C++ signatures. Attributes that do not exist are refused, which Boost would add in silence.
 
-Nothing is looked at unless a call has failed already: calls that are right cost nothing but one function of Python's."""
+Nothing is looked at unless a call has failed already: calls that are right cost nothing but one function of Python's. `door` does the same for functions
+in Python, which would fail somewhere within; it looks at every call, and so is for doors alone."""
 import difflib
 import functools
 import inspect
@@ -23,7 +24,31 @@ def install(wrapper):
 			if type(member).__name__ == "function" and type(member).__module__ == "Boost.Python" and not name.startswith("_"):
 				setattr(kind, name, _explained(kind, name, member))
 		kind.__init__ = _made(kind, kind.__init__)
-		kind.__setattr__ = _set
+		kind.__setattr__, kind.__getattr__ = _set, _absent
+
+
+def door(*numbers):
+	"""For public functions and __init__: unknown keywords, what is left out or given twice, and arguments that must be numbers (by name; None where that is
+	the default) and are none: TypeError with a sentence, before anything is done."""
+	def wrap(function):
+		name = function.__qualname__.removesuffix(".__init__")
+		own = [p for p in inspect.signature(function).parameters.values() if p.name != "self"]
+		parameters = [(p.name, "float" if p.name in numbers else "", p.default) for p in own if p.kind == p.POSITIONAL_OR_KEYWORD]
+		missing = set(numbers) - {word for word, _, _ in parameters}
+		if missing: raise ValueError(f"{name} has no arguments {missing}")
+		others = any(p.kind == p.VAR_KEYWORD for p in own)
+		method = len(own) < len(inspect.signature(function).parameters)
+
+		@functools.wraps(function)
+		def call(*given, **named):
+			known = {word: value for word, value in named.items() if not others or word in {word for word, _, _ in parameters}}
+			said = _said(name, parameters, given[method:], known)
+			if said: raise TypeError(said)
+			return function(*given, **named)
+
+		return call
+
+	return wrap
 
 
 def _explained(kind, name, method):
@@ -82,7 +107,10 @@ def _said(name, parameters, given, named):
 	values = {**dict(zip(words, given)), **named}
 	missing = [word for word, _, default in parameters if default is inspect.Parameter.empty and word not in values]
 	if missing: return f"{name} needs {' and '.join(missing)}: {name}{_signature(parameters)}"
-	wrong = [(word, kind) for word, kind, _ in parameters if word in values and not _fits(values[word], kind)]
+	wrong = [
+		(word, kind) for word, kind, default in parameters
+		if word in values and not _fits(values[word], kind) and not (values[word] is None and default is None)
+	]
 	return f"{name}.{wrong[0][0]} must be {_words.get(wrong[0][1], wrong[0][1])}, got {values[wrong[0][0]]!r}" if wrong else None
 
 
@@ -121,6 +149,8 @@ def _attributes(kind):
 def _made(kind, initialise):
 	@functools.wraps(initialise, assigned=("__doc__", ), updated=())
 	def make(self, *given, **named):
+		for word, value in named.items(): # Boost takes a text for a list of its letters
+			if isinstance(value, str) and _isList(type(self), word): raise TypeError(f"{type(self).__name__}.{word} must be a list, got {value!r}")
 		try:
 			return initialise(self, *given, **named)
 		except (TypeError, AttributeError) as error:
@@ -131,6 +161,11 @@ def _made(kind, initialise):
 	return make
 
 
+@functools.lru_cache(maxsize=None)
+def _isList(kind, word):
+	return isinstance(getattr(kind, word, None), property) and isinstance(getattr(kind(), word), list)
+
+
 def _ofAttributes(kind, named, error):
 	"""The error to raise where keyword arguments of a class failed, or None."""
 	known = _attributes(kind)
@@ -139,21 +174,37 @@ def _ofAttributes(kind, named, error):
 			return AttributeError(f"{kind.__name__} has no attribute {word}{_closest(word, known)}; known: {' '.join(known)}")
 	if "No registered converter" not in str(error): return None
 	wrong = re.search(r"of type (.+) from this Python object of type (.+)$", str(error))
-	type_, got = {"double": "float", "std::string": "str"}.get(wrong.group(1), wrong.group(1)), wrong.group(2)
+	type_, got = {"double": "float", "std::string": "str", "long": "int"}.get(wrong.group(1), wrong.group(1)), wrong.group(2)
 	if "basic_string" in type_: type_ = "str"
 	plain = kind()
 	words = [
 		word for word, value in named.items()
 		if type(value).__name__ == got and not _fits(value, type_) and type(getattr(plain, word, None)).__name__ in (type_, "NoneType")
 	]
-	return TypeError(f"{kind.__name__}.{words[0]} must be {_words.get(type_, type_)}, got {named[words[0]]!r}") if words else None
+	if words: return TypeError(f"{kind.__name__}.{words[0]} must be {_words.get(type_, type_)}, got {named[words[0]]!r}")
+	words = [word for word, value in named.items() if _isList(kind, word)]
+	if words: return TypeError(f"{kind.__name__}.{words[0]} must be a list, each of it {_words.get(type_, type_)}, got {named[words[0]]!r}")
+	return None
+
+
+def _absent(self, name):
+	"""What is said where an attribute or a method that is not there is read."""
+	kind = type(self)
+	known = [word for word in dir(kind) if not word.startswith("_")]
+	raise AttributeError(f"{kind.__name__} has no attribute {name}{_closest(name, known)}")
 
 
 def _set(self, name, value):
 	kind = type(self)
+	if isinstance(value, str) and isinstance(getattr(kind, name, None), property) and isinstance(getattr(self, name), list):
+		raise TypeError(f"{kind.__name__}.{name} must be a list, got {value!r}")
 	if name.startswith("__") or hasattr(kind, name):
 		try:
 			return object.__setattr__(self, name, value)
+		except AttributeError as error:
+			if "no setter" not in str(error): raise
+			within = f"; write into it: {name}[...] = ..." if name in ("displacement", "velocity") else ""
+			raise AttributeError(f"{kind.__name__}.{name} cannot be set{within}") from None
 		except TypeError as error:
 			if type(error).__name__ != "ArgumentError": raise
 			present = getattr(self, name)

@@ -74,9 +74,10 @@ def ensure(yade):
 	elif built and os.path.realpath(built) != os.path.realpath(path):
 		print('yadeblocks: YADE has loaded %s already, %s is not used' % (path, built), file=sys.stderr)
 	publish(yade)
-	from . import _calls, _running, saving
+	from . import _calls, _running, group, saving
 	_calls.install(yade.wrapper)
 	_running.install(yade.wrapper)
+	group.install(yade.wrapper)
 	saving.install()
 
 

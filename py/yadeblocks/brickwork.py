@@ -10,10 +10,12 @@ import math
 
 import numpy as np
 
+from ._calls import door
 from .layout import Layout
 from .specimen import rectangle
 
 
+@door('bricks', 'courses', 'length', 'height', 'joint', 'offset')
 def runningBond(bricks, courses, length, height, joint=0.0, first='whole', offset=0.5, **more):
 	"""Courses in turn without and with an offset (a fraction of a brick; 1/3: third bond).
 
@@ -25,21 +27,25 @@ def runningBond(bricks, courses, length, height, joint=0.0, first='whole', offse
 	return brickwork(bricks * (length + joint), courses, height, [(length, shift) for shift in shifts], joint, **more)
 
 
+@door('bricks', 'courses', 'length', 'height', 'joint')
 def stackBond(bricks, courses, length, height, joint=0.0, **more):
 	"""Head joints above each other; arguments as in `runningBond`."""
 	return brickwork(bricks * (length + joint), courses, height, [(length, 0)], joint, **more)
 
 
+@door('bricks', 'courses', 'width', 'height', 'joint')
 def headerBond(bricks, courses, width, height, joint=0.0, **more):
 	"""Bricks of which one sees the head, `width` wide, half a head shifted from course to course; other arguments as in `runningBond`."""
 	return runningBond(bricks, courses, width, height, joint, **more)
 
 
+@door('bricks', 'courses', 'length', 'width', 'height', 'joint')
 def englishBond(bricks, courses, length, width, height, joint=0.0, **more):
 	"""Courses of stretchers and of headers in turn, from the bottom, with a quarter of a stretcher between their head joints."""
 	return brickwork(bricks * (length + joint), courses, height, [(length, 0), (width, 0.5)], joint, **more)
 
 
+@door('width', 'courses', 'height', 'joint', 'least')
 def brickwork(width, courses, height, pattern, joint=0.0, origin=(0.0, 0.0), crack=False, openings=(), least=0.2):
 	"""A wall of any such bond -> layout.Layout with blocks of the kinds 'whole', 'part' (cut at an end or an opening) and 'half' (with crack).
 

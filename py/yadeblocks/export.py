@@ -20,12 +20,33 @@ def pairName(model, first, second):
 
 
 def pointNames(model, names=None):
-	"""For every contact point the name of its joint, an array of str objects; names: name -> indices of joints (layout.Placed.joints), others have
-	the name of their pair."""
+	"""For every contact point the name of its joint, an array of str objects; others have that of their pair of materials. names: name -> indices of
+	joints; by default those of the model (BlockModel.nameJoints), {}: pairs alone."""
 	found = np.array([pairName(model, *blocks) for blocks in model.segmentBlocks], dtype=object)
-	for name, joints in (names or {}).items():
+	for name, joints in (jointNames(model) if names is None else names).items():
 		found[np.asarray(joints)] = name
 	return found.repeat(2)
+
+
+def jointNames(model):
+	"""Names of joints that a model or Snapshot has (BlockModel.nameJoints): name -> indices of joints."""
+	return {name: np.flatnonzero(model.segmentName == number) for number, name in enumerate(getattr(model, "jointNames", ()))}
+
+
+def pointsOf(model, joints):
+	"""Mask of the contact points of some joints: names (one, or a list of them; of a pair of materials, too), indices, or None: all. ValueError for a name
+	that no joint has."""
+	chosen = np.ones(len(model.pointStatus), bool)
+	if joints is None: return chosen
+	wanted = [joints] if isinstance(joints, str) else list(joints)
+	if not all(isinstance(name, str) for name in wanted):
+		chosen[:] = False
+		chosen.reshape(-1, 2)[np.asarray(wanted)] = True
+		return chosen
+	named = pointNames(model)
+	for name in wanted:
+		if name not in named: raise ValueError(f"no joint has the name {name!r}; there are {', '.join(sorted(set(named)))}")
+	return np.isin(named, wanted)
 
 
 class Present:
@@ -130,18 +151,20 @@ class State:
 	untouched: as the model was before anything moved, broke or was removed."""
 	def __init__(self, model, time, untouched=False):
 		self.time = float(time)
+		self.names = list(getattr(model, "jointNames", ()))
 		self.grids = {"blocks": _zones(model, untouched), "joints": _joints(model, untouched), "contacts": _contacts(model, untouched)}
 
 
 class BlocksExport:
 	"""Three collections for ParaView in `folder`, begun anew: blocks.pvd (zones; rigid blocks as triangles between their corners), joints.pvd
 	(a line for every contact point, its half of the segment) and contacts.pvd (a line for every two edges that touch without a bond), each with a
-	compressed .vtu file per step. Blocks that have been removed are not in it.
+	compressed .vtu file per step. Blocks that have been removed are not in it. Where joints have names (BlockModel.nameJoints), joints.names.csv says
+	which number stands for which.
 
 	Zones: block, material (number in O.materials' order), stresses sxx, syy, sxy, szz, principal stresses s1, s2 in the plane and vonMises [Pa],
 	strains exx, eyy, exy;
 	grid points:
-	displacement [m], velocity [m/s]; joints: firstBlock, secondBlock, normal (out of the first block), area [m2], opening [m], slip [m], sigma
+	displacement [m], velocity [m/s]; joints: firstBlock, secondBlock, name (a number, -1 without), normal (out of the first block), area [m2], opening [m], slip [m], sigma
 	[Pa], tau [Pa],
 	status (0 intact, 1 broken in tension, 2 in shear, 3 never bonded, 4 softening) and damage (0 whole to 1, only residual strength is left);
 	contacts: firstBlock, secondBlock and force on the first [N]."""
@@ -150,7 +173,7 @@ class BlocksExport:
 		self.folder.mkdir(parents=True, exist_ok=True)
 		self.times = []
 		for name in ("blocks", "joints", "contacts"):
-			for old in (self.folder / f"{name}.pvd", *self.folder.glob(f"{name}_[0-9]*.vtu")):
+			for old in (self.folder / f"{name}.pvd", self.folder / f"{name}.names.csv", *self.folder.glob(f"{name}_[0-9]*.vtu")):
 				old.unlink(missing_ok=True)
 
 	def write(self, model, time):
@@ -162,6 +185,9 @@ class BlocksExport:
 		for name, grid in state.grids.items():
 			with files.replacing(self.folder / f"{name}_{len(self.times):04}.vtu") as part:
 				_writeGrid(part, *grid)
+		if state.names:
+			lines = [f'{number},"{name.replace(chr(34), 2 * chr(34))}"' for number, name in enumerate(state.names)]
+			files.replace(self.folder / "joints.names.csv", ("number,name\n" + "\n".join(lines) + "\n").encode())
 		self.times.append(state.time)
 		for name in state.grids:
 			_writeCollection(self.folder, name, self.times)
@@ -210,8 +236,9 @@ def _joints(model, untouched):
 	first, second = np.repeat(np.asarray(model.segmentBlocks, np.int32), 2, axis=0).T
 	cells = {
 		"firstBlock": first, "secondBlock": second, "normal": _spatial(np.repeat(model.normal, 2, axis=0)),
-		"area": np.repeat(np.asarray(model.segmentArea), 2)
+		"area": np.repeat(np.asarray(model.segmentArea), 2), "name": np.full(len(first), -1, np.int32)
 	}
+	if getattr(model, "jointNames", ()): cells["name"] = np.repeat(np.asarray(model.segmentName, np.int32), 2)
 	for name in ("opening", "slip", "sigma", "tau", "damage"):
 		values = np.array(getattr(model, "point" + name.capitalize()))
 		cells[name] = np.zeros_like(values) if untouched else values

@@ -10,6 +10,7 @@ from collections import namedtuple
 
 import numpy as np
 
+from ._calls import door
 from .layout import Layout, joinSmall, _shapely
 
 #: Parallel joints. dip: angle of the traces with the x axis, counter-clockwise [degrees]; spacing: normal distance [m]; persistence: share of a trace that is
@@ -18,6 +19,7 @@ from .layout import Layout, joinSmall, _shapely
 JointSet = namedtuple('JointSet', 'name dip spacing persistence length scatter seed through', defaults=(1.0, 0.0, 0.0, 1, (0.0, 0.0)))
 
 
+@door('least')
 def cut(outline, sets=(), cracks={}, holes=(), least=0.0):
 	"""Cuts a polygon [m] -> layout.Layout with blocks of the kind 'block'.
 
@@ -27,6 +29,11 @@ def cut(outline, sets=(), cracks={}, holes=(), least=0.0):
 	A joint that ends within a block does not part it and is left out, as in UDEC. notes: `traces`, name -> list of (2, 2) arrays [m];
 	`lostLength`: of what was
 	left out [m]; `merged`: how many blocks joined a neighbour. Errors: ValueError for impossible sets and polygons."""
+	for joints in sets:
+		if not isinstance(joints, JointSet): raise TypeError(f'cut.sets must be JointSets, got {joints!r}')
+		for word in JointSet._fields[1:-1]:
+			if not isinstance(getattr(joints, word), (int, float, np.number)):
+				raise TypeError(f'JointSet.{word} must be a number, got {getattr(joints, word)!r} in {joints.name!r}')
 	shapely = _shapely()
 	region = shapely.geometry.Polygon(outline, holes)
 	if not region.is_valid: raise ValueError('cut.outline must be a simple polygon that holds its holes: ' + shapely.validation.explain_validity(region))

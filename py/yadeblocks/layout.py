@@ -4,8 +4,8 @@
 	wall = runningBond(bricks=5, courses=6, length=0.4, height=0.175)      # a Layout: nothing is in a model yet
 	placed = wall.addTo(model, 'unit', zoneSize=0.1)                       # or rigid=True
 	joints = placed.bond(model, [JointMat(...)], head=dict(tension=0))     # {'bed': array, 'head': array, ...}
-	model.setJoints(joints['bed'], cohesion=0.35e6)                        # also later
-	Cracks(model, joints), pictures.drawCracks(path, model, names=joints)  # results and pictures by name
+	model.setJoints('bed', cohesion=0.35e6)                                # also later: the names are the model's
+	Cracks(model), pictures.drawCracks(path, model)                        # results and pictures by name
 
 Builders: brickwork, voussoirs, jointsets; their outlines are plain arrays, so that whatever can make polygons is one."""
 from collections import Counter
@@ -69,9 +69,9 @@ class Layout:
 
 
 class Placed:
-	"""A Layout in a model. `blocks`: the index of each of its blocks; `layout`: whose it is."""
-	def __init__(self, layout, blocks):
-		self.layout, self.blocks = layout, np.array(blocks)
+	"""A Layout in a model. `blocks`: the index of each of its blocks; `layout`: whose it is; `outside`: name of joints with blocks that are not its own."""
+	def __init__(self, layout, blocks, outside='platen'):
+		self.layout, self.blocks, self.outside = layout, np.array(blocks), outside
 
 	def of(self, kind):
 		"""Indices of the blocks of this kind; ValueError if there is none."""
@@ -80,27 +80,34 @@ class Placed:
 		return chosen
 
 	def bond(self, model, joints, **properties):
-		"""BlockModel.bond(joints), and then other properties for joints of a name: bed=dict(cohesion=..., ...), names as in BlockModel.setJoints.
-		Returns the joints by name, as `joints` does. ValueError for a name that no joint has; the model is bonded then."""
+		"""BlockModel.bond(joints), names for the joints (BlockModel.nameJoints), and then other properties for joints of a name:
+		bed=dict(cohesion=..., ...), as in BlockModel.setJoints. Returns the joints by name, as `joints` does. ValueError for a name that no joint
+		has; the model is bonded then."""
 		model.bond(joints)
-		named = self.joints(model)
+		named = self.nameJoints(model)
 		for name in properties:
 			if name not in named: raise ValueError(f'Placed.bond: no joint has the name {name!r}; there are {", ".join(named)}')
 		for name, values in properties.items():
 			model.setJoints(named[name], **values)
 		return named
 
+	def nameJoints(self, model):
+		"""Gives the model's joints the builder's names, as `joints` returns them; after BlockModel.bond, for several layouts in one model."""
+		named = self.joints(model)
+		for name, some in named.items():
+			model.nameJoints(name, some)
+		return named
+
 	def joints(self, model):
-		"""Joints by name, indices for BlockModel.setJoints: {'bed': array, 'head': array, ..., 'platen': array}, each of those with the
-		builder's names that
-		exists; 'platen' are those with blocks that are not of this layout. After bond(); RuntimeError before."""
+		"""Joints by name, indices for BlockModel.setJoints: {'bed': array, 'head': array, ..., 'platen': array}, each of those with the builder's names
+		that exists; 'platen' (`outside`) are those with blocks that are not of this layout. After bond(); RuntimeError before."""
 		pairs = np.asarray(model.segmentBlocks)
 		if not len(pairs): raise RuntimeError('Placed.joints: there are no joints; BlockModel.bond() makes them')
 		place = np.full(max(pairs.max(), self.blocks.max()) + 1, -1)
 		place[self.blocks] = np.arange(len(self.blocks))
 		ours = place[pairs]
 		within = (ours >= 0).all(axis=1)
-		names = np.where((ours >= 0).any(axis=1), 'platen', '').astype(object)
+		names = np.where((ours >= 0).any(axis=1), self.outside, '').astype(object)
 		ends = np.asarray(model.reference)[np.asarray(model.segmentNodes)[within, :2]]
 		t = np.asarray(model.segmentParameters)[within, :2, None]
 		ends = (1 - t) * ends[:, :1] + t * ends[:, 1:]
@@ -150,11 +157,11 @@ class Mortared:
 	def addTo(self, model, material, mortar, zoneSize, size, **voronoi):
 		"""Adds Voronoi blocks of the material `mortar` and the blocks of `material` to a BlockModel -> Placed.
 
-		zoneSize: in the blocks; size and what follows: of the mortar, as in BlockModel.addVoronoi. Joints of mortar with blocks are named 'platen'
-		by Placed.joints."""
+		zoneSize: in the blocks; size and what follows: of the mortar, as in BlockModel.addVoronoi. Joints of blocks with mortar (and with all else)
+		are named 'mortar' by Placed.joints; those within the mortar have no name."""
 		for outline, holes in self.mortar:
 			model.addVoronoi(counterClockwise(outline).tolist(), mortar, size=size, holes=[ring.tolist() for ring in holes], **voronoi)
-		return self.blocks.addTo(model, material, zoneSize=zoneSize)
+		return Placed(self.blocks, self.blocks.addTo(model, material, zoneSize=zoneSize).blocks, outside='mortar')
 
 
 def _corners(ring):

@@ -17,11 +17,13 @@ import math
 import numpy as np
 
 from . import running
+from ._calls import door
 from .curves import Peak
 from .progress import Progress
 from .recording import runner
 
 
+@door('ratio', 'floor', 'period', 'maxSteps')
 def settle(model, ratio=1e-4, floor=0.0, period=100, maxSteps=1000000):
 	"""Runs until the scene is at rest: unbalanced forces and kinetic energy are below `ratio` (the paper's 0.01 % by default) of what there is, as
 	`BlockModel.unrest` measures it, and every ramp is over.
@@ -65,6 +67,7 @@ def follow(model, group, label='', displacement=math.inf, **options):
 	return path
 
 
+@door('within', 'ratio', 'floor', 'period', 'maxSteps')
 def comesToRest(model, within, ratio=1e-6, floor=0.0, period=500, maxSteps=100000):
 	"""Whether what moves comes to rest, True, or some grid point goes further than `within` [m] from its reference position or is still moving
 	after maxSteps
@@ -98,6 +101,8 @@ class Motion:
 		self.model, self.group, self.start = model, group, Omega().time
 		if callable(values): self.at = values
 		else:
+			if not hasattr(values, '__len__') or len(values) != 2:
+				raise ValueError(f'Motion.values must be a function of the time or a table (times, values), got {values!r}')
 			times, values = (np.asarray(column, float) for column in values)
 			_requireTable('Motion', times, values)
 			self.at = lambda t: self._between(t, times, values)
@@ -116,7 +121,7 @@ class Motion:
 
 	def engine(self):
 		"""For the beginning of O.engines."""
-		return runner('motion of ' + self.group, self)
+		return runner('motion of ' + self.group, self, initRun=True) # PyRunner leaves out the first step else
 
 
 def _requireTable(name, times, values):
@@ -133,6 +138,7 @@ class Approach:
 
 	>>> approach = Approach(model, 'top', slow=0.25)
 	>>> approach(stress, broken)     # every now and then"""
+	@door('slow', 'drop', 'growth')
 	def __init__(self, model, group, slow, drop=0.7, growth=1.1):
 		if not 0 < slow <= 1: raise ValueError('Approach: slow must lie in (0, 1], got %r' % slow)
 		if not 0 < drop < 1: raise ValueError('Approach: drop must lie in (0, 1), got %r' % drop)
@@ -175,6 +181,7 @@ class Stop:
 	drop: the stress has fallen below this fraction of its peak, after something has broken;
 	displacement: the displacement has reached this [m]; cracks: so many contact points are broken.
 	`reason` says which one it was ("drop", "displacement", "cracks"), "" while none holds."""
+	@door('drop', 'displacement', 'cracks')
 	def __init__(self, drop=None, displacement=None, cracks=None):
 		if drop is None and displacement is None and cracks is None: raise ValueError('Stop: no condition is given')
 		if drop is not None and not 0 < drop < 1: raise ValueError('Stop: drop must lie in (0, 1), got %r' % drop)

@@ -43,7 +43,7 @@ class Pace:
 	`said` is what was said, "" if nothing: that the run is too fast, once, on stderr."""
 	def __init__(self, model, load, reaction=None, label="", stream=None):
 		self.model, self.load, self.reaction, self.label, self.stream = model, load, reaction, label, stream
-		self.said, self._known, self._highest, self._count, self._sums = "", {}, 0.0, 0, np.zeros(4)
+		self.said, self._known, self._highest, self._count, self._sums, self._cracked = "", {}, 0.0, 0, np.zeros(4), False
 
 	def look(self):
 		"""Kinetic energy [J], strain energy [J], load [N] and reaction [N] (NaN without one) now."""
@@ -56,15 +56,17 @@ class Pace:
 	def __call__(self, broken):
 		"""Looks at the present state; broken: contact points, or those that are not elastic any more.
 
-		It judges the sums over all looks, whenever more is carried than ever before: behind a peak energy is set free,
-		which is no matter of the pace."""
+		It judges the sums over all looks, at the first crack and whenever more is carried than ever before: behind a peak energy is set free, which
+		is no matter of the pace."""
 		if self.said: return
 		kinetic, strain, load, reaction = self.look()
 		carried = load if self.reaction is None else reaction # inertia is in the load, not in the reaction
 		self._sums += kinetic, strain, load, 0 if self.reaction is None else abs(reaction - load)
 		self._count += 1
 		higher, self._highest = carried > self._highest, max(self._highest, carried)
-		if broken and higher and self._count >= _least: self._judge(*self._sums)
+		first = broken and not self._cracked # waves may have carried more before: what is carried then need not be the most
+		if broken and (higher or first) and self._count >= _least: self._judge(*self._sums)
+		self._cracked = self._cracked or bool(broken)
 
 	def _judge(self, kinetic, strain, load, apart):
 		excess = []

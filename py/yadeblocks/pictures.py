@@ -14,7 +14,8 @@ from itertools import cycle
 import numpy as np
 
 from . import files
-from .export import Present, blockOutlines, contactLines, pointNames
+from ._calls import door
+from .export import Present, blockOutlines, contactLines, pointNames, pointsOf
 from .results import Cracks, intact, modes
 
 #: What a curve is compared with: y is a number (drawn as a line), a pair (a band) or, with x, a measured curve.
@@ -61,19 +62,20 @@ def drawCurve(path, curves, x, y, labels=None, references=(), title=""):
 	return path
 
 
-def drawCracks(path, model, magnification=None, window=None, title="", names=None):
+@door('magnification')
+def drawCracks(path, model, magnification=None, window=None, title="", names=None, joints=None):
 	"""The specimen in its deformed shape: blocks in the light tones of their materials, on top the cracks, coloured by joint type,
 	solid where the joint broke in tension, dashed where it broke in shear.
 
 	magnification: of the displacements (less those of the whole), by default a round number that makes them visible;
 	window: (x0, y0, x1, y1) in the picture [m], by default all of it, fragments and platens too, unless they have flown far;
-	names: of joints, as in results.Cracks. Returns the path."""
+	names: of joints, as in results.Cracks; joints: whose cracks are drawn, a name, a list of names or indices, by default all. Returns the path."""
 	reference = np.asarray(model.reference)
 	displacement = model.position - reference
 	there = Present(model).nodes
 	displacement = displacement - np.median(displacement[there], axis=0)
 	if magnification is None:
-		magnification = _visible(np.ptp(reference, axis=0).max(), displacement[there])
+		magnification = _visible(np.ptp(reference[there], axis=0).max(), displacement[there])
 	shown = reference + magnification * displacement
 
 	low, high = _window(reference, shown, there) if window is None else np.reshape(window, (2, 2))
@@ -82,7 +84,7 @@ def drawCracks(path, model, magnification=None, window=None, title="", names=Non
 		axes = figure.add_axes((0, 0, 1, 1), xlim=(low[0], high[0]), ylim=(low[1], high[1]))
 		axes.axis("off")
 		axes.set_title(title, fontsize=9)
-		cracks, blocks = _drawCrackLines(axes, model, shown, names), _drawBlocks(axes, model, shown)
+		cracks, blocks = _drawCrackLines(axes, model, shown, names, joints), _drawBlocks(axes, model, shown)
 		_drawScale(axes, magnification)
 		axes.legend(
 			handles=cracks + blocks, title="" if cracks else "no broken joints", loc="upper center", borderaxespad=0,
@@ -167,11 +169,11 @@ def _drawBlocks(axes, model, shown):
 	return [Patch(facecolor=tones[label], edgecolor="#9C958B", linewidth=0.5, label=label) for label in present]
 
 
-def _drawCrackLines(axes, model, shown, names=None):
+def _drawCrackLines(axes, model, shown, names=None, joints=None):
 	"""Draws the cracks; the legend's handles, all modes of a joint type one after the other."""
 	from matplotlib.collections import LineCollection
 	from matplotlib.lines import Line2D
-	there = Present(model).points
+	there = Present(model).points & pointsOf(model, joints)
 	counts = {pair: count for pair, count in Cracks(model, names).counts(there).items() if any(count.values())}
 	colours = _assigned(counts, _jointColours, _spareColours)
 	pairs = pointNames(model, names)
@@ -180,7 +182,7 @@ def _drawCrackLines(axes, model, shown, names=None):
 	size = np.ptp(model.reference, axis=0).max()
 	width = _lineWidth(axes, lines)
 	ends = np.rint(contactLines(model, model.reference) / (1e-6 * size)).astype(np.int64) # ends of neighbours coincide in the reference
-	handles = _drawSoftened(axes, model, lines, status, width)
+	handles = _drawSoftened(axes, model, lines, status, width, there)
 	for pair, count in counts.items():
 		for mode, value in modes.items():
 			style = dict(color=colours[pair], linestyle=_modeStyles[mode], linewidth=width)
@@ -192,12 +194,12 @@ def _drawCrackLines(axes, model, shown, names=None):
 	return handles
 
 
-def _drawSoftened(axes, model, lines, status, width):
+def _drawSoftened(axes, model, lines, status, width, there):
 	"""Joints that have begun to soften and are not cracked: paler and thinner the less they are damaged; the legend's handle, if there are any."""
 	from matplotlib.collections import LineCollection
 	from matplotlib.lines import Line2D
 	damage = np.asarray(getattr(model, "pointDamage", np.zeros(len(status))))
-	begun = (damage > 0.05) & Present(model).points & (status != modes["tension"]) & (status != modes["shear"])
+	begun = (damage > 0.05) & there & (status != modes["tension"]) & (status != modes["shear"])
 	if not begun.any(): return []
 	shade = damage[begun]
 	colours = [(0.8, 0.47, 0.65, 0.25 + 0.75 * value) for value in shade] # of Okabe and Ito, too
@@ -259,9 +261,10 @@ def _visible(size, displacement):
 
 
 def _window(reference, shown, there=True):
-	"""Corners of a view of all of the deformed shape; fragments count that are within the specimen's size of it. The undeformed shape is within it, too,
-	also what has been removed since. there: a mask of the grid points that have not been."""
-	low, high = reference.min(axis=0), reference.max(axis=0)
+	"""Corners of a view of all that is shown: the deformed shape, and the undeformed one of the same blocks; fragments count that are within the specimen's
+	size of it. there: a mask of the grid points of blocks that have not been removed."""
+	kept = reference[np.broadcast_to(there, len(reference))]
+	low, high = kept.min(axis=0), kept.max(axis=0)
 	size = (high - low).max()
 	near = ((shown > low - size) & (shown < high + size)).all(axis=1) & there
 	low, high = np.minimum(low, shown[near].min(axis=0, initial=np.inf)), np.maximum(high, shown[near].max(axis=0, initial=-np.inf))

@@ -4,6 +4,8 @@
 	drawField(folder / 'stress.png', model, 's1')          # contours of a displacement or a stress, see `fields`
 	drawCrosses(folder / 'crosses.png', model)             # principal stresses
 	drawJoints(folder / 'slip.png', model, 'slip')         # bars on the joints: sigma, tau, opening or slip
+	drawJoints(folder / 'bed.png', model, 'tau', joints='bed')   # of joints of a name alone
+	drawNames(folder / 'names.png', model)                 # joints, coloured by name
 	drawContacts(folder / 'contacts.png', model)           # edges that touch without a bond, and their forces
 	drawReactions(folder / 'reactions.png', model)         # forces of groups and of held rigid blocks
 	drawSheet(folder / 'peak.png', film.peak, title='at the peak')
@@ -13,7 +15,9 @@
 import numpy as np
 
 from . import files, pictures
-from .export import Present, blockOutlines, contactLines, freeContactLines, jointMotion, outOfPlaneStress, principalStresses, vonMises
+from .export import (
+	Present, blockOutlines, contactLines, freeContactLines, jointMotion, outOfPlaneStress, pointNames, pointsOf, principalStresses, vonMises
+)
 from .snapshot import reactionsOf
 
 #: What contours can show: displacements u, ux, uy of the grid points and stresses of the zones.
@@ -42,12 +46,20 @@ def drawCrosses(path, model, magnification=None, window=None, title="principal s
 	return _alone(path, model, _cross, magnification, window, title)
 
 
-def drawJoints(path, model, what, magnification=None, window=None, title=""):
+def drawJoints(path, model, what, magnification=None, window=None, title="", joints=None):
 	"""Bars on the joints, as high as one of `onJoints` is large: a bar for each contact point, over its half of the joint; positive values
 	(tension, opening)
-	on the side of the joint's second block. Joints that have become free contacts show no stress."""
+	on the side of the joint's second block. Joints that have become free contacts show no stress. joints: which, a name, a list of names or
+	indices, by default all."""
 	_known("what", what, onJoints)
-	return _alone(path, model, lambda axes, view: _bars(axes, view, what), magnification, window, title or _names[what])
+	title = title or _names[what] + (f": {joints}" if isinstance(joints, str) else "")
+	return _alone(path, model, lambda axes, view: _bars(axes, view, what, joints=joints), magnification, window, title)
+
+
+def drawNames(path, model, magnification=None, window=None, title="joints by name", joints=None):
+	"""Joints as lines, coloured by their names (BlockModel.nameJoints; else by their pairs of materials), with how many each name has. joints: which, a name,
+	a list of names or indices, by default all."""
+	return _alone(path, model, lambda axes, view: _joints(axes, view, joints), magnification, window, title, drop=9)
 
 
 def drawContacts(path, model, magnification=None, window=None, title="free contacts"):
@@ -76,11 +88,14 @@ def drawMovie(path, states, what="cracks", magnification=None, window=None, titl
 	if not writers[path.suffix].isAvailable():
 		raise RuntimeError(f"a movie {path.suffix} needs {'ffmpeg: scripts/install.sh ffmpeg' if path.suffix == '.mp4' else 'Pillow'}")
 	last = _View(states[-1], magnification, window)
-	views = [_View(state, last.magnification, (*last.low, *last.high)) for state in states]
+	views = [_View(state, last.magnification, window) for state in states] # what is removed later is in the first ones
+	low, high = np.min([view.low for view in views], axis=0), np.max([view.high for view in views], axis=0)
+	for view in views:
+		view.low, view.high = low, high
 	if what in fields: most = max((_most(_values(view, what)[0][_kept(view, what)]) for view in views), default=0)
 	elif what in onJoints: most = max((_most(_onJoints(view.model, what)[view.there.points]) for view in views), default=0)
 	draw = {**kinds, **dict.fromkeys(fields, lambda a, v: _field(a, v, what, most)), **dict.fromkeys(onJoints, lambda a, v: _bars(a, v, what, most))}[what]
-	size = last.high - last.low
+	size = high - low
 	width, height = size * min(5 / size[0], 5 / size[1])
 	with files.replacing(path) as part:
 		with pictures._figure(width + 0.4, height + 1.2) as figure:
@@ -130,13 +145,13 @@ class _View:
 		self.there = Present(model)
 		displacement = displacement - np.median(displacement[self.there.nodes], axis=0)
 		self.magnification = pictures._visible(
-			np.ptp(reference, axis=0).max(), displacement[self.there.nodes]
+			np.ptp(reference[self.there.nodes], axis=0).max(), displacement[self.there.nodes]
 		) if magnification is None else magnification
 		self.shown = reference + self.magnification * displacement
 		self.low, self.high = pictures._window(reference, self.shown, self.there.nodes) if window is None else np.reshape(window, (2, 2))
 
 
-def _alone(path, model, draw, magnification, window, title):
+def _alone(path, model, draw, magnification, window, title, drop=38):
 	view = _View(model, magnification, window)
 	size = view.high - view.low
 	width, height = size * min(pictures._textWidth / size[0], 1.2 * pictures._textWidth / size[1])
@@ -144,7 +159,7 @@ def _alone(path, model, draw, magnification, window, title):
 		axes = figure.add_axes((0, 0, 1, 1))
 		_frame(axes, view, title)
 		draw(axes, view)
-		pictures._drawScale(axes, view.magnification, drop=30)
+		pictures._drawScale(axes, view.magnification, drop=drop)
 	return path
 
 
@@ -229,8 +244,14 @@ def _field(axes, view, what, most=None):
 	_bar(axes, colours, unit)
 
 
+def _pointsHigh(axes):
+	"""Height of the axes on the paper [points]: what stands below them keeps its distance whatever their size."""
+	return axes.get_position().height * axes.figure.get_figheight() / pictures._point
+
+
 def _bar(axes, colours, unit):
-	place = axes.inset_axes((0.1, -0.07, 0.8, 0.025))
+	points = _pointsHigh(axes)
+	place = axes.inset_axes((0.1, -12 / points, 0.8, 4 / points))
 	bar = axes.figure.colorbar(colours, cax=place, orientation="horizontal", extend="both")
 	bar.ax.tick_params(labelsize=6, width=0.4, length=2, pad=1)
 	bar.ax.set_xlabel(f"[{unit}]", fontsize=6, labelpad=1)
@@ -260,7 +281,7 @@ def _cross(axes, view):
 				zorder=3
 			), autolim=False
 		)
-	axes.text(0.5, -0.04, f"red tension, blue compression; the longest {most:.3g} {unit}", transform=axes.transAxes, ha="center", va="center", fontsize=6)
+	_note(axes, f"red tension, blue compression; the longest {most:.3g} {unit}")
 
 
 def _spread(places, view, most):
@@ -280,7 +301,7 @@ def _onJoints(model, what):
 	return np.where(np.repeat(np.asarray(model.segmentArea) > 0, 2), values, jointMotion(model)[onJoints[2:].index(what)])
 
 
-def _bars(axes, view, what, most=None):
+def _bars(axes, view, what, most=None, joints=None):
 	from matplotlib.collections import PolyCollection
 	model = view.model
 	_outlines(axes, view, "#F7F7F7")
@@ -288,7 +309,7 @@ def _bars(axes, view, what, most=None):
 	if not len(values): return
 	there = np.repeat(np.asarray(model.segmentArea) > 0, 2)
 	if what in ("opening", "slip"): there[:] = True
-	there &= view.there.points
+	there &= view.there.points & pointsOf(model, joints)
 	lines, values = contactLines(model, view.shown)[there], values[there]
 	if not len(values): return
 	normals = np.repeat(model.normal, 2, axis=0)[there]
@@ -305,7 +326,21 @@ def _bars(axes, view, what, most=None):
 	colours = np.where(values > 0, _red, _blue)
 	axes.add_collection(PolyCollection(corners, facecolors=colours, edgecolors=colours, linewidths=0.1, alpha=0.8, zorder=3), autolim=False)
 	sense = {"sigma": "red tension, blue compression", "opening": "red open, blue closed"}.get(what, "red and blue: the two senses")
-	axes.text(0.5, -0.04, f"{sense}; the highest {most:.3g} {unit}", transform=axes.transAxes, ha="center", va="center", fontsize=6)
+	_note(axes, f"{sense}; the highest {most:.3g} {unit}")
+
+
+def _joints(axes, view, joints):
+	from matplotlib.collections import LineCollection
+	from matplotlib.lines import Line2D
+	pictures._drawBlocks(axes, view.model, view.shown)
+	there = view.there.points & pointsOf(view.model, joints)
+	names, lines = pointNames(view.model)[there], contactLines(view.model, view.shown)[there]
+	colours = pictures._assigned(sorted(set(names)), pictures._jointColours, pictures._spareColours)
+	for name, colour in colours.items():
+		axes.add_collection(LineCollection(lines[names == name], colors=colour, linewidths=1.2, zorder=2), autolim=False)
+	handles = [Line2D([], [], color=colour, linewidth=1.2, label=f"{name} ({np.count_nonzero(names == name) // 2})") for name, colour in colours.items()]
+	below = -26 * pictures._point / axes.figure.get_figheight()
+	axes.legend(handles=handles, title="" if handles else "no joints", loc="upper center", bbox_to_anchor=(0.5, below), borderaxespad=0, ncol=4)
 
 
 def _contacts(axes, view):
@@ -351,4 +386,4 @@ def _reactions(axes, view):
 
 
 def _note(axes, text):
-	axes.text(0.5, -0.04, text, transform=axes.transAxes, ha="center", va="center", fontsize=6)
+	axes.text(0.5, -7 / _pointsHigh(axes), text, transform=axes.transAxes, ha="center", va="center", fontsize=6)

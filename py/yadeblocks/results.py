@@ -38,8 +38,8 @@ modes = {"tension": brokenInTension, "shear": brokenInShear}
 class Cracks:
 	"""What has broken in a model, and what broke first: `look()` every now and then, the rest whenever it is wanted.
 
-	To be made at the start of a run: areas count as they were bonded. names: name -> indices of joints, as layout.Placed.joints gives them; what has no
-	name counts under that of its pair of materials."""
+	To be made at the start of a run: areas count as they were bonded. Joints count under their names: those of the model (BlockModel.nameJoints), or
+	names: name -> indices of joints; what has no name counts under that of its pair of materials. names={}: pairs of materials alone."""
 	def __init__(self, model, names=None):
 		self.model = model
 		self.pairs = pointNames(model, names)

@@ -8,9 +8,11 @@
 Needs shapely (Debian's python3-shapely)."""
 import numpy as np
 
+from ._calls import door
 from .layout import Layout, joinSmall, _shapely
 
 
+@door('size', 'seed', 'lloyd', 'flatness')
 def rubble(outline, size, seed=1, lloyd=2, flatness=1.0, holes=()):
 	"""Voronoi stones -> layout.Layout with blocks of the kind 'stone'.
 

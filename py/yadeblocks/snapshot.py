@@ -26,6 +26,7 @@ class Snapshot:
 			setattr(self, name, np.array(value) if isinstance(value, np.ndarray) and not like else value)
 		for name in _passing:
 			setattr(self, name, np.array(getattr(model, name)))
+		self.jointNames, self.segmentName = list(getattr(model, "jointNames", ())), np.array(getattr(model, "segmentName", ()))
 		self.time = float(time)
 		self._stress = np.array(model.zoneStress())
 		self._contacts = {name: np.array(column) for name, column in model.freeContacts().items()} if hasattr(model, "freeContacts") else {}

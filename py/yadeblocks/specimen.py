@@ -19,6 +19,7 @@ def nodesWhere(model, rule, label=None):
 	rule gets two arrays [m] and returns a boolean array; label keeps to blocks of one material.
 	An empty choice is a ValueError: a condition that reaches nothing is a mistake.
 	"""
+	if not callable(rule): raise TypeError('nodesWhere.rule must be a function of x and y, got %r' % (rule, ))
 	x, y = model.reference.T
 	chosen = np.asarray(rule(x, y), dtype=bool)
 	if label is not None: chosen &= np.repeat(blocksOf(model, label), np.diff(model.firstNode))

@@ -9,9 +9,11 @@ import math
 
 import numpy as np
 
+from ._calls import door
 from .layout import Layout
 
 
+@door('radius', 'thickness', 'count', 'angle', 'chords')
 def arch(radius, thickness, count, angle=math.pi, chords=1, centre=(0.0, 0.0)):
 	"""A circular arch, symmetric about the vertical through its centre -> layout.Layout with blocks of the kind 'voussoir'.
 

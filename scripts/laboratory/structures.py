@@ -3,6 +3,8 @@
 import math
 from pathlib import Path
 
+import numpy as np
+
 from .jobs import Job
 
 _curves = {"vtk": False, "sheets": False} # nothing else is drawn
@@ -53,16 +55,20 @@ def asMarkdown(all):
 
 
 def draw(path, all):
-	"""The size of the error over CPU seconds, a line for each quantity."""
+	"""The size of the error over CPU seconds, a line for each quantity; its sign by the markers: filled above what is expected, open below."""
 	from yadeblocks import pictures
 	groups = {}
 	for row in all:
-		if "failed" not in row and row["error"]:
-			groups.setdefault((row["scenario"], row["quantity"]), []).append((row["cpu_s"], abs(100 * row["error"])))
+		if "failed" not in row and row["error"] and not math.isnan(row["error"]):
+			groups.setdefault((row["scenario"], row["quantity"]), []).append((row["cpu_s"], 100 * row["error"]))
 	with pictures._picture(path, 6.3, 4) as figure:
-		axes = figure.add_subplot(xscale="log", yscale="log", xlabel="CPU time [s]", ylabel="error [%]")
+		axes = figure.add_subplot(xscale="log", yscale="log", xlabel="CPU time [s]", ylabel="size of the error [%]; filled: too high, open: too low")
 		for (name, quantity), places in groups.items():
-			axes.plot(*zip(*sorted(places)), "o-", markersize=3.5, linewidth=0.9, label=f"{name}, {quantity.replace('_', ' ')}")
+			seconds, error = np.array(sorted(places)).T
+			line, = axes.plot(seconds, abs(error), linewidth=0.9, label=f"{name}, {quantity.replace('_', ' ')}")
+			for high, face in ((True, line.get_color()), (False, "white")):
+				chosen = (error > 0) == high
+				axes.plot(seconds[chosen], abs(error)[chosen], "o", markersize=4, color=line.get_color(), markerfacecolor=face)
 		axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1))
 
 

@@ -16,14 +16,14 @@ shapes = {
 	'edgeNodes': ('firstEdge[-1]', 2),
 	'segmentNodes segmentParameters': ('contactCount / 2', 4),
 	'segmentBlocks normal': ('contactCount / 2', 2),
-	'segmentArea': ('contactCount / 2', ),
+	'segmentArea segmentName': ('contactCount / 2', ),
 	'pointOpening pointSlip pointSigma pointTau pointStatus pointDamage': ('contactCount', ),
 	'removedBlocks': (0, ), # none has been
 }
 names = [name for group in shapes for name in group.split()]
-indices = 'zoneNodes firstNode firstZone firstEdge blockMaterial edgeNodes segmentNodes segmentBlocks removedBlocks'.split()
+indices = 'zoneNodes firstNode firstZone firstEdge blockMaterial edgeNodes segmentNodes segmentBlocks removedBlocks segmentName'.split()
 writable = ['displacement', 'velocity']
-copies = ['position', 'normal', 'pointDamage', 'removedBlocks'] # worked out when asked for
+copies = ['position', 'normal', 'pointDamage', 'removedBlocks', 'segmentName'] # worked out when asked for
 
 
 def test_shapesAsDocumented():

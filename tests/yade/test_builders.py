@@ -190,7 +190,7 @@ def test_mortarBetweenBricks():
 	model.bond(strong())
 	pairs = np.asarray(model.blockMaterial)[np.asarray(model.segmentBlocks)]
 	unit = model.materialLabels.index('unit')
-	assert not (pairs == unit).all(axis=1).any() and set(placed.joints(model)) == {'platen'} # mortar everywhere
+	assert not (pairs == unit).all(axis=1).any() and set(placed.joints(model)) == {'mortar'} # mortar everywhere
 	assert float(np.sum(model.zoneVolume)) == pytest.approx(0.1 * wall.areas.sum(), rel=1e-6)
 	with pytest.raises(ValueError, match='Mortared.gap must leave something'):
 		layout.Mortared(wall, 0.2)
@@ -246,7 +246,8 @@ def test_namesInBondResultsAndPictures(tmp_path):
 	O.run(60, True)
 	counts = Cracks(model, joints).counts()
 	assert set(counts) == {'bed', 'head', 'unit'} and counts['head']['tension'] > 0 and not any(counts['bed'].values()) and not any(counts['unit'].values())
-	assert Cracks(model, joints).share('head') == 1 and set(Cracks(model).counts()) == {'unit-unit'}
+	assert Cracks(model, joints).share('head') == 1 and set(Cracks(model, {}).counts()) == {'unit-unit'}
+	assert Cracks(model).counts() == counts # names are kept in the model
 	assert pictures.drawCracks(tmp_path / 'a.png', model, names=joints).stat().st_size > 5000
 	model = BlockModel(thickness=0.1)
 	placed = wall.addTo(model, 'unit', zoneSize=0.1)

@@ -5,7 +5,7 @@ import inspect
 import pytest
 
 from scenes import *
-from yadeblocks import _calls
+from yadeblocks import _calls, brickwork, jointsets, loading, pictures, rubble, voussoirs
 
 box = [(0, 0), (1, 0), (1, 1), (0, 1)]
 
@@ -45,7 +45,37 @@ def model():
 		(lambda m: BlockMotion(damping=0.3), TypeError, 'BlockMotion.damping must be a text, got 0.3'),
 		(lambda m: setattr(O.materials[0], 'young', 'stiff'), TypeError, "BlockMat.young must be a number, got 'stiff'"),
 		(lambda m: setattr(O.materials[0], 'yong', 1), AttributeError, 'BlockMat has no attribute yong (did you mean young?)'),
-		(lambda m: setattr(m, 'thicknes', 1), AttributeError, 'BlockModel has no attribute thicknes (did you mean thickness?)')]
+		(lambda m: setattr(m, 'thicknes', 1), AttributeError, 'BlockModel has no attribute thicknes (did you mean thickness?)'),
+		(lambda m: m.drive('a', 'all', 'x'), ValueError, "indices must be whole numbers, got 'all'"),
+		(lambda m: m.drive('a', [0.5], 'x'), ValueError, 'indices must be whole numbers, got 0.5'),
+		(lambda m: m.drive('a', None, 'x'), ValueError, 'indices must be whole numbers, got None'),
+		(lambda m: m.traction('top', (0, 1)), ValueError, "indices must be whole numbers, got 'top'"),
+		(lambda m: m.viscous('a', [0], impedance=3), ValueError, 'viscous boundary "a": impedance must be a pair of numbers, normal and tangential, got 3'),
+		(lambda m: m.viscous('a', [0], impedance=('a', 1)), ValueError, 'viscous boundary "a": impedance must be a pair of numbers, normal and tangential, '),
+		(lambda m: m.addRegion(box, 'unit', 0.5, holes=3), ValueError, 'holes must be a list of polygons, got 3'),
+		(lambda m: setattr(m, 'displacement', 3), AttributeError, 'BlockModel.displacement cannot be set; write into it'),
+		(lambda m: setattr(m, 'position', 3), AttributeError, 'BlockModel.position cannot be set'),
+		(lambda m: m.groupWerk('a'), AttributeError, 'BlockModel has no attribute groupWerk (did you mean groupWork?)'),
+		(lambda m: BlockServo(groups='top'), TypeError, "BlockServo.groups must be a list, got 'top'"),
+		(lambda m: BlockServo(groups=[1]), TypeError, 'BlockServo.groups must be a list, each of it a text, got [1]'),
+		(lambda m: setattr(BlockServo(), 'groups', 'top'), TypeError, "BlockServo.groups must be a list, got 'top'"),
+		(lambda m: BlockCrackRecorder(iterPeriod='x'), TypeError, "BlockCrackRecorder.iterPeriod must be a whole number, got 'x'"),
+		(lambda m: NumpyLaw(3), TypeError, 'NumpyLaw.function must be a function of the columns, got 3'),
+		(lambda m: m.group(), TypeError, 'BlockModel.group needs name: BlockModel.group(name, nodes=None)'),
+		(lambda m: m.group('a', knots=[0]), TypeError, 'BlockModel.group has no argument knots (did you mean nodes?)'),
+		(lambda m: loading.settle(m, ratoi=1), TypeError, 'settle has no argument ratoi (did you mean ratio?); known: model ratio floor period maxSteps'),
+		(lambda m: loading.settle(m, ratio='x'), TypeError, "settle.ratio must be a number, got 'x'"),
+		(lambda m: loading.Stop(dorp=1), TypeError, 'Stop has no argument dorp (did you mean drop?)'),
+		(lambda m: loading.Stop(drop='x'), TypeError, "Stop.drop must be a number, got 'x'"),
+		(lambda m: loading.Motion(m, 'top', 3), ValueError, 'Motion.values must be a function of the time or a table (times, values), got 3'),
+		(lambda m: loading.Approach(m, 'top', slow='x'), TypeError, "Approach.slow must be a number, got 'x'"),
+		(lambda m: brickwork.runningBond('x', 2, 1, 1), TypeError, "runningBond.bricks must be a number, got 'x'"),
+		(lambda m: brickwork.runningBond(2, 2, 1, 1, openigns=()), TypeError, 'brickwork has no argument openigns (did you mean openings?)'),
+		(lambda m: voussoirs.arch('x', 1, 2), TypeError, "arch.radius must be a number, got 'x'"),
+		(lambda m: jointsets.cut(box, [jointsets.JointSet('a', 'steep', 1)]), TypeError, "JointSet.dip must be a number, got 'steep' in 'a'"),
+		(lambda m: rubble.rubble(box, 'x'), TypeError, "rubble.size must be a number, got 'x'"),
+		(lambda m: pictures.drawCracks('a.png', m, magnificaton=1), TypeError, 'drawCracks has no argument magnificaton (did you mean magnification?)'),
+		(lambda m: nodesWhere(m, 3), TypeError, 'nodesWhere.rule must be a function of x and y, got 3')]
 )
 def test_sentences(model, call, error, words):
 	with pytest.raises(error) as caught:
@@ -81,3 +111,10 @@ def test_whatIsRightGoesThrough(model):
 		model.drive('a', [0], 'x')
 	with pytest.raises(RuntimeError, match='no joints yet'):
 		model.setJoints(kn=1)
+	assert not hasattr(model, 'somethingElse') and list(BlockServo(groups=['a']).groups) == ['a']
+	with pytest.raises(ValueError, match="BlockModel.setJoints: kn must be one number or one for each joint, 1, got 'x'"):
+		two = BlockModel(thickness=1)
+		for x in (0, 1):
+			two.addRigid([(x, 0), (x + 1, 0), (x + 1, 1), (x, 1)], 'unit')
+		two.bond([JointMat(material1='unit', material2='unit', kn=1, ks=1)])
+		two.setJoints(kn='x')

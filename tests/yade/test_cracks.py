@@ -4,7 +4,7 @@ import pytest
 
 from scenes import *
 
-header = 'step time x y nx ny mode body1 body2 material1 material2 damage'
+header = 'step time x y nx ny mode body1 body2 material1 material2 damage name'
 
 
 def recorded(tmp_path, steps, file='cracks.txt', size=6e-3, **attributes):
@@ -40,7 +40,7 @@ def test_eventsAreTheBrokenPoints(tmp_path):
 	for line, e in zip(file, events):
 		assert int(line[0]) == e['step'] and float(line[1]) == pytest.approx(e['time'], rel=1e-8) and line[6] == e['mode']
 		assert (float(line[2]), float(line[3])) == pytest.approx(tuple(e['position']), rel=1e-8)
-		assert tuple(map(int, line[7:9])) == tuple(e['ids']) and tuple(line[9:11]) == e['materials'] and float(line[11]) == e['damage'] == 1
+		assert tuple(map(int, line[7:9])) == tuple(e['ids']) and tuple(line[9:11]) == e['materials'] and float(line[11]) == e['damage'] == 1 and line[12:] == ['-']
 		assert np.hypot(float(line[4]), float(line[5])) == pytest.approx(1, rel=1e-8)
 
 
@@ -145,7 +145,7 @@ def test_fullDisk(tmp_path, room, events):
 		else:
 			assert text.endswith('\n') and 3000 < len(text) <= 4096 # no half line
 			written = lines(tmp_path / 'cracks.txt')
-			assert all(len(line) == 12 for line in written) and 0 < len(written) < len(recorder.events)
+			assert all(len(line) == 13 for line in written) and 0 < len(written) < len(recorder.events)
 			assert [int(line[0]) for line in written] == [event['step'] for event in recorder.events][:len(written)]
 	finally:
 		subprocess.run(['umount', tmp_path], check=True)

@@ -165,8 +165,10 @@ def test_removedBlocksAreNotDrawn(column, tmp_path):
 	draws = [(pictures.drawCracks, ()), (picturesfields.drawField, ('uy', )), (picturesfields.drawField, ('s1', )), (picturesfields.drawCrosses, ()),
 			(picturesfields.drawJoints, ('opening', ))]
 	for number, (draw, what) in enumerate(draws):
-		shares = [area(draw(tmp_path / f'{number}-{k}.png', model, *what)) for k, model in enumerate((before, after))]
+		shares = [area(draw(tmp_path / f'{number}-{k}.png', model, *what, window=(0, 0, 0.04, 0.04))) for k, model in enumerate((before, after))]
 		assert shares[1] < 0.75 * shares[0], (draw, what, shares)
+	whole, left = (picturesfields._View(model, None, None) for model in (before, after)) # each spans what it shows, with 1.5 % around
+	assert whole.low[1] == pytest.approx(0, abs=1.7e-3) and left.low[1] == pytest.approx(0.02, abs=1e-3) and left.high[1] == pytest.approx(0.04, abs=1e-3)
 	assert [picturesfields._View(model, None, None).magnification for model in (before, after)] == [500, 1] # 2 % of 40 mm by 1.1 um
 	export.writeStates(tmp_path, *(export.State(model, model.time) for model in (before, after)))
 	cells = [(tmp_path / f'{name}_000{number}.vtu').read_bytes().split(b'NumberOfCells="')[1].split(b'"')[0] for name in ('blocks', 'joints')

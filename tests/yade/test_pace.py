@@ -70,6 +70,20 @@ def test_staysSilentBeforeTheFirstCrackAndBehindThePeak():
 	assert watched(kinetic=0.5, falling=True)[0] == ''
 
 
+def test_looksAtTheFirstCrackThoughAWaveCarriedMore():
+	"""As a notched beam at 0.5 mm/s did: its supports were pulled and pressed by waves before it cracked, and it ended soon after, without a word."""
+	pace = watched(kinetic=0.5, broken=0)[1]
+	pace.reaction = lambda: 1000.0
+	pace(0)
+	pace.reaction = lambda: 90.0
+	pace(1)
+	assert 'kinetic energy is 50 % of the strain energy' in pace.said
+	slow = watched(kinetic=0.01, broken=0)[1]
+	for broken in (0, 1, 1):
+		slow(broken)
+	assert slow.said == ''
+
+
 def test_isInTheProgressLine():
 	pace = watched(kinetic=0.02, reaction=99)[1]
 	assert loadingLine(1e-3, 2e6, pace.model, pace).endswith('broken 0  unbalanced 0.01  kinetic/strain 0.02  reaction/load 1.001')

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 
 namespace yade {
@@ -33,6 +34,16 @@ namespace {
 		throw std::runtime_error("BlockCrackRecorder.fileName: cannot write to " + path + ": " + reason);
 	}
 
+	/// A joint's name as a column of a file: quoted where it would be several, - where there is none.
+	string columnOf(const string& name)
+	{
+		if (name.empty()) return "-";
+		if (name.find_first_of(" \t\n\"") == string::npos) return name;
+		std::ostringstream quoted;
+		quoted << std::quoted(name);
+		return quoted.str();
+	}
+
 	string labelOf(const BlockModel& model, int block) { return model.materialLabels[model.assembly.mesh.blockMaterial[block]]; }
 }
 
@@ -45,7 +56,7 @@ void BlockCrackRecorder::action()
 		for (blocks::Joint status : a.state.status)
 			known.push_back(int(status));
 		if (!fileName.empty())
-			visibly([&] { addLines(fileName, "step time x y nx ny mode body1 body2 material1 material2 damage\n", std::ios::trunc); });
+			visibly([&] { addLines(fileName, "step time x y nx ny mode body1 body2 material1 material2 damage name\n", std::ios::trunc); });
 	}
 	bool takenBack = false; // a rescued state is older than what was seen: there are joints that are whole again
 	for (size_t i = 0; i < known.size() && !takenBack; ++i)
@@ -83,7 +94,7 @@ void BlockCrackRecorder::action()
 		const auto  frame = blocks::frameOf(a, points[e] / 2);
 		file << steps[e] << ' ' << times[e] << ' ' << positions[e].x() << ' ' << positions[e].y() << ' ' << frame.nx << ' ' << frame.ny << ' '
 		     << nameOf(modes[e]) << ' ' << model.firstBody + g.block[0] << ' ' << model.firstBody + g.block[1] << ' ' << labelOf(model, g.block[0])
-		     << ' ' << labelOf(model, g.block[1]) << ' ' << damages[e] << '\n';
+		     << ' ' << labelOf(model, g.block[1]) << ' ' << damages[e] << ' ' << columnOf(a.joints.called(points[e] / 2)) << '\n';
 	}
 	visibly([&] { addLines(fileName, file.str(), std::ios::app); });
 }
@@ -104,6 +115,7 @@ py::list BlockCrackRecorder::events() const
 		event["ids"]       = py::make_tuple(model.firstBody + g.block[0], model.firstBody + g.block[1]);
 		event["materials"] = py::make_tuple(labelOf(model, g.block[0]), labelOf(model, g.block[1]));
 		event["damage"]    = damages[e];
+		event["name"]      = model.assembly.joints.called(points[e] / 2);
 		list.append(event);
 	}
 	return list;

@@ -16,6 +16,11 @@ void NumpyLaw::pyHandleCustomCtorArgs(py::tuple& args, py::dict&)
 {
 	if (py::len(args) == 0) return;
 	if (py::len(args) > 1) throw std::invalid_argument("NumpyLaw takes one function, got " + std::to_string(py::len(args)) + " arguments");
+	if (!PyCallable_Check(py::object(args[0]).ptr())) {
+		const string sentence = "NumpyLaw.function must be a function of the columns, got " + string(py::extract<string>(args[0].attr("__repr__")()));
+		PyErr_SetString(PyExc_TypeError, sentence.c_str());
+		py::throw_error_already_set();
+	}
 	function = args[0];
 	args     = py::tuple();
 }

@@ -76,8 +76,16 @@ namespace {
 	/// One number for each of `count` joints, from one number or as many.
 	vector<Real> column(const py::object& values, const char* name, int count)
 	{
-		const py::object list = py::import("numpy").attr("asarray")(values, "float64").attr("ravel")().attr("tolist")();
-		const long       n    = py::len(list);
+		py::object list;
+		try {
+			list = py::import("numpy").attr("asarray")(values, "float64").attr("ravel")().attr("tolist")();
+		} catch (const py::error_already_set&) {
+			PyErr_Clear();
+			throw std::invalid_argument(
+				"BlockModel.setJoints: " + string(name) + " must be one number or one for each joint, " + std::to_string(count) + ", got "
+				+ string(py::extract<string>(values.attr("__repr__")())));
+		}
+		const long n = py::len(list);
 		if (n != 1 && n != count)
 			throw std::invalid_argument(
 				"BlockModel.setJoints: " + string(name) + " must be one number or one for each joint, " + std::to_string(count) + ", got "
@@ -88,10 +96,43 @@ namespace {
 		return out;
 	}
 
-	/// Joints by their indices; None: all.
+	/// Joints that have one of these names.
+	vector<long> namedJoints(const BlockModel& model, const vector<string>& wanted, const string& method)
+	{
+		const auto& joints = model.assembly.joints;
+		string      known;
+		for (const string& name : joints.names)
+			known += (known.empty() ? "" : ", ") + name;
+		for (const string& name : wanted)
+			if (std::find(joints.names.begin(), joints.names.end(), name) == joints.names.end())
+				throw std::invalid_argument(
+					method + ": no joint has the name \"" + name + "\"; " + (known.empty() ? "none has a name" : "there are: " + known));
+		vector<long> chosen;
+		for (int i = 0; i < joints.count(); ++i)
+			if (std::find(wanted.begin(), wanted.end(), joints.called(i)) != wanted.end()) chosen.push_back(i);
+		return chosen;
+	}
+
+	/// The texts of a text or of a sequence of nothing but texts; empty if it is something else.
+	vector<string> texts(const py::object& which)
+	{
+		vector<string>            out;
+		const py::extract<string> one(which);
+		if (one.check()) return { one() };
+		if (!PyList_Check(which.ptr()) && !PyTuple_Check(which.ptr())) return {};
+		for (long i = 0; i < py::len(which); ++i) {
+			const py::extract<string> text(which[i]);
+			if (!text.check()) return {};
+			out.push_back(text());
+		}
+		return out;
+	}
+
+	/// Joints by their indices or by a name or several; None: all.
 	vector<long> chosenJoints(const BlockModel& model, const py::object& which, const string& method)
 	{
-		const int    count = model.assembly.joints.count();
+		const int count = model.assembly.joints.count();
+		if (const auto wanted = texts(which); !wanted.empty()) return namedJoints(model, wanted, method);
 		vector<long> chosen;
 		if (which.is_none())
 			for (int i = 0; i < count; ++i)
@@ -148,6 +189,39 @@ namespace {
 		return py::object();
 	}
 
+	void nameJoints(BlockModel& model, const string& name, const py::object& which)
+	{
+		if (model.assembly.joints.count() == 0) throw std::runtime_error("BlockModel.nameJoints: there are no joints yet; call bond() first");
+		const auto chosen = chosenJoints(model, which, "BlockModel.nameJoints");
+		model.assembly.nameJoints(name, { chosen.begin(), chosen.end() });
+	}
+
+	py::list jointNames(const BlockModel& model)
+	{
+		py::list out;
+		for (const string& name : model.assembly.joints.names)
+			out.append(name);
+		return out;
+	}
+
+	py::object jointsNamed(const BlockModel& model, const py::object& name)
+	{
+		const auto wanted = texts(name);
+		if (wanted.empty())
+			throw std::invalid_argument(
+				"BlockModel.jointsNamed.name must be a text or a list of texts, got " + string(py::extract<string>(py::str(name))));
+		const auto  chosen = namedJoints(model, wanted, "BlockModel.jointsNamed");
+		vector<int> list(chosen.begin(), chosen.end());
+		return numpyOf(list, false).attr("copy")();
+	}
+
+	py::object segmentName(const BlockModel& model)
+	{
+		const auto& joints = model.assembly.joints;
+		auto        column = joints.names.empty() ? vector<int>(joints.count(), blocks::Joints::unnamed) : joints.nameOf;
+		return numpyOf(column, false).attr("copy")();
+	}
+
 	py::object scatterStrengths(BlockModel& model, Real cov, Real correlationLength, long seed, const string& kind, const py::object& which)
 	{
 		auto& a = model.assembly;
@@ -187,6 +261,7 @@ namespace {
 
 void defineJoints(PythonModel& c)
 {
+	using py::arg;
 	c.add_property(
 		 "jointProperties",
 		 &jointProperties,
@@ -198,21 +273,36 @@ void defineJoints(PythonModel& c)
 		 "them.")
 		.def("setJoints",
 	             py::raw_function(&setJoints, 1),
-	             "setJoints(joints=None, kn=..., ks=..., cohesion=..., ...): new properties for the given joints (indices of segments; None: all), each "
-	             "one "
-	             "number or one for each of them; names as in :yref:`jointProperties<BlockModel.jointProperties>`. So joints of a region or of a list can "
+	             "setJoints(joints=None, kn=..., ks=..., cohesion=..., ...): new properties for the given joints (indices of segments, or a name or "
+	             "several of :yref:`nameJoints<BlockModel.nameJoints>`; None: all), each one number or one for each of them; names as in "
+	             ":yref:`jointProperties<BlockModel.jointProperties>`. So joints of a region or of a list can "
 	             "have their own. Reaches masses and time step. Errors: ValueError for impossible values and unknown names; nothing is changed then.")
 		.def("scatterStrengths",
 	             &scatterStrengths,
-	             (py::arg("cov"), py::arg("correlationLength") = 0., py::arg("seed") = 1, py::arg("kind") = "weibull", py::arg("joints") = py::object()),
+	             (arg("cov"), arg("correlationLength") = 0., arg("seed") = 1, arg("kind") = "weibull", arg("joints") = py::object()),
 	             "Strengths that differ from joint to joint: tension and cohesion, as far as they exceed the residual ones, times a random factor of mean "
 	             "1, "
 	             "the same for both. cov: standard deviation by mean, in [0, 1]; correlationLength: of the field, whose correlation is e^(-(r/length)^2), "
 	             "0: "
-	             "none [m]; seed: of the field; kind: distribution, 'weibull' or 'lognormal'; joints: indices of segments, None: all. Once, before the "
+	             "none [m]; seed: of the field; kind: distribution, 'weibull' or 'lognormal'; joints: indices of segments or names, None: all. Once, "
+	             "before the "
 	             "first "
 	             "step; nothing is kept of it but the strengths. Returns the factors. Errors: ValueError for impossible values, and where a joint that "
-	             "softens would snap back.");
+	             "softens would snap back.")
+		.def("nameJoints",
+	             &nameJoints,
+	             (arg("name"), arg("joints")),
+	             "Gives a name to joints (indices of segments, or names that they have; None: all), after bond(). Parameters (setJoints), crack tables, "
+	             "results, pictures and ParaView files go by it; it is saved with the model. A joint has one name: another that it had is gone, and so is "
+	             "a "
+	             "name that no joint has any more. Errors: ValueError for an empty name, no joints, and joints that are not there; nothing is changed "
+	             "then.")
+		.def("jointsNamed",
+	             &jointsNamed,
+	             (arg("name")),
+	             "Indices of the joints that have a name, or one of a list of names, ascending. A copy. Error: ValueError if no joint has it.")
+		.add_property("jointNames", &jointNames, "Names of joints, in the order in which they were given.")
+		.add_property("segmentName", &segmentName, "Name of every joint, an index into jointNames; -1 for none, shape (segments). A copy.");
 }
 
 } // namespace yade

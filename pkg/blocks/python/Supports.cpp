@@ -21,12 +21,30 @@ vector<long> integers(const py::object& sequence)
 {
 	const py::object list = py::import("numpy").attr("asarray")(sequence).attr("ravel")().attr("tolist")();
 	vector<long>     out;
-	for (long i = 0; i < py::len(list); ++i)
-		out.push_back(py::extract<long>(list[i])); // too large for a long: Python says so
+	for (long i = 0; i < py::len(list); ++i) {
+		const py::extract<long> whole(list[i]);
+		if (!whole.check())
+			throw std::invalid_argument(
+				"indices must be whole numbers, got " + string(py::extract<string>(py::object(list[i]).attr("__repr__")())));
+		out.push_back(whole()); // too large for a long: Python says so
+	}
 	return out;
 }
 
 namespace {
+
+	/// Numbers from any sequence; nothing if it is none, or holds something else.
+	vector<Real> numbers(const py::object& sequence)
+	{
+		vector<Real> out;
+		if (!PySequence_Check(sequence.ptr())) return out;
+		for (long i = 0; i < py::len(sequence); ++i) {
+			const py::extract<Real> number(sequence[i]);
+			if (!number.check()) return {};
+			out.push_back(number());
+		}
+		return out;
+	}
 
 	/// Within what an int holds; the assembly knows how many there are.
 	int inRange(long index, const string& what)
@@ -181,10 +199,12 @@ namespace {
 		const string      what = "viscous boundary \"" + name + "\": ";
 		blocks::Impedance z;
 		if (!impedance.is_none()) {
-			if (py::len(impedance) != 2)
+			const vector<Real> pair = numbers(impedance);
+			if (pair.size() != 2)
 				throw std::invalid_argument(
-					what + "impedance must be a pair, normal and tangential, got " + std::to_string(py::len(impedance)));
-			z = { py::extract<Real>(impedance[0]), py::extract<Real>(impedance[1]) };
+					what + "impedance must be a pair of numbers, normal and tangential, got "
+					+ string(py::extract<string>(impedance.attr("__repr__")())));
+			z = { pair[0], pair[1] };
 			for (Real part : { z.normal, z.tangential })
 				blocks::require(part > 0, what + "impedances must be positive and finite [Pa s/m]", part);
 		}

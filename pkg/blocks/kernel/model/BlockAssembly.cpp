@@ -146,6 +146,7 @@ void BlockAssembly::bond(std::vector<Segment> found)
 	joints.ofMaterials.clear(); // its kinds are no more
 	joints.softening.clear();
 	joints.inSituOpening.clear(), joints.inSituSlip.clear();
+	joints.names.clear(), joints.nameOf.clear();
 	state.softened = {};
 	joints.kind.assign(joints.count(), 0);
 	for (auto* column : { &state.opening, &state.slip, &state.sigma, &state.tau, &state.slipPlastic, &state.uplift })
@@ -184,6 +185,30 @@ void BlockAssembly::setJoints(int first, int last, const JointParams& params, Jo
 		if (status != Joint::intact) forces.broke[i / Joints::batch] = true;
 	}
 	noteKinds(first, last);
+}
+
+void BlockAssembly::nameJoints(const std::string& name, const std::vector<int>& which)
+{
+	if (name.empty()) throw std::invalid_argument("a name of joints must not be empty");
+	for (int i : which)
+		require(i >= 0 && i < joints.count(), "name of joints \"" + name + "\": there is no such joint", i);
+	if (which.empty()) throw std::invalid_argument("name of joints \"" + name + "\": there must be at least one joint");
+	auto& names = joints.names;
+	joints.nameOf.resize(joints.count(), Joints::unnamed);
+	const int number = int(std::find(names.begin(), names.end(), name) - names.begin());
+	if (number == int(names.size())) names.push_back(name);
+	for (int i : which)
+		joints.nameOf[i] = number;
+
+	std::vector<int> left(names.size(), 0); // of each name, how many joints have it
+	for (int of : joints.nameOf)
+		if (of != Joints::unnamed) ++left[of];
+	for (int k = int(names.size()) - 1; k >= 0; --k) {
+		if (left[k]) continue;
+		names.erase(names.begin() + k);
+		for (int& of : joints.nameOf)
+			if (of > k) --of;
+	}
 }
 
 void BlockAssembly::requireChangeable(int joint, const JointParams& params, const SofteningParams& softening) const

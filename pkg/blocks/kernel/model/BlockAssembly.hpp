@@ -98,6 +98,8 @@ struct BlockAssembly {
 
 	/// Properties of joints [first, last), and whether they are whole. They are checked.
 	void setJoints(int first, int last, const JointParams&, Joint status = Joint::intact, const SofteningParams& = {});
+	/// Gives a name to a set of joints. A joint has one name: another that it had is gone, and so is a name that no joint has any more.
+	void nameJoints(const std::string& name, const std::vector<int>& which);
 	void setJoints(const JointParams& p) { setJoints(0, joints.count(), p); }
 
 	/// Refuses properties that no joint can have, or that this one cannot have any more.

@@ -56,6 +56,7 @@ template <class T, class Visit, Only<T, Joints> = 0> void forEachField(T& x, Vis
 {
 	visit("segments", x.segments), visit("pairs", x.pairs), visit("kinds", x.kinds), visit("kind", x.kind), visit("ofMaterials", x.ofMaterials);
 	visit("softening", x.softening), visit("inSituOpening", x.inSituOpening), visit("inSituSlip", x.inSituSlip);
+	visit("names", x.names), visit("nameOf", x.nameOf);
 }
 
 template <class T, class Visit, Only<T, MotionGroup> = 0> void forEachField(T& x, Visit&& visit)

@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
 #include <blocks/kernel/laws/SofteningLaw.hpp>
+#include <string>
 
 namespace blocks {
 
@@ -37,6 +38,11 @@ struct Joints {
 	// ---- what stresses in situ have opened and slid the two points by without displacement; empty if there are none [m]
 	std::vector<std::array<Real, 2>> inSituOpening, inSituSlip;
 
+	// ---- names of sets of joints; a joint has one or none
+	std::vector<std::string> names;  ///< all that joints have; empty if there are none
+	std::vector<int>         nameOf; ///< of each joint, an index into names or `unnamed`; empty if there are none
+	static constexpr int     unnamed = -1;
+
 	// ---- properties: few kinds, many joints
 	std::vector<JointParams>     kinds { JointParams() }; ///< the first stands for joints without properties yet
 	std::vector<int>             kind;                    ///< of each joint
@@ -65,6 +71,9 @@ struct Joints {
 	int                count() const { return int(segments.size()); }
 	const JointParams& of(int joint) const { return kinds[kind[joint]]; }
 	const JointParams& ofPoint(int point) const { return of(point / 2); }
+
+	/// What a joint is called; empty if it has no name.
+	std::string called(int joint) const { return names.empty() || nameOf[joint] == unnamed ? std::string() : names[nameOf[joint]]; }
 
 	bool anySoftens() const { return !softening.empty(); }
 	bool softens(int joint) const { return anySoftens() && softening[kind[joint]].softens(); }
