@@ -86,9 +86,7 @@ int firstStrayed(const BlockAssembly& a)
 	for (int joint = 0; joint < a.joints.count(); ++joint) {
 		const int p = 2 * joint;
 		if (a.state.status[p] == Joint::intact || a.state.released[joint] || (a.state.sigma[p] == 0 && a.state.sigma[p + 1] == 0)) continue;
-		const auto& node = a.joints.segments[joint].node;
-		const Real  slip = std::min(std::abs(a.state.slip[p]), std::abs(a.state.slip[p + 1]));
-		if (edgesTurned(a, joint) || slip > a.between(node[0], node[1]).norm() + a.between(node[2], node[3]).norm()) return joint;
+		if (edgesPassed(a, joint)) return joint;
 	}
 	return -1;
 }

@@ -50,9 +50,9 @@ namespace {
 		const auto& node = a.joints.segments[joint].node;
 		return { false,
 			 a.blockOfNode(node[0]),
-			 "it acts on block " + std::to_string(a.blockOfNode(node[2]))
-			         + " by a joint whose edges have slid past each other, or turned against each other by more than a right angle; "
-			           "general contact follows blocks that come apart, once their joint has broken",
+			 "it acts on block " + std::to_string(a.blockOfNode(node[2])) + " by joint " + std::to_string(joint) + ", whose edges have "
+			         + (edgesTurned(a, joint) ? "turned against each other by more than a right angle" : "slid past each other")
+			         + "; general contact follows blocks that come apart, once their joint has broken",
 			 {} };
 	}
 

@@ -149,10 +149,9 @@ private:
 constexpr int releasedKind = -1, mixedKinds = -2;
 
 /// Whether the edges of a joint, which ran against each other when it was bonded, have turned by more than a right angle.
-inline bool edgesTurned(const BlockAssembly& a, int joint)
-{
-	const auto& node = a.joints.segments[joint].node;
-	return a.between(node[0], node[1]).dot(a.between(node[2], node[3])) > 0;
-}
+bool edgesTurned(const BlockAssembly&, int joint);
+
+/// ... or have slid past each other. The law of a joint means nothing then.
+bool edgesPassed(const BlockAssembly&, int joint);
 
 } // namespace blocks

@@ -133,7 +133,7 @@ namespace {
 		const int          ends   = broken(2 * joint) + broken(2 * joint + 1);
 		if (a.joints.softens(joint)) {
 			if (ends == 0 || a.joints.softeningOf(joint).cap.strength > 0) return Release::never; // free contacts have no cap
-			if (edgesTurned(a, joint)) return Release::now; // its law has lost its meaning: a fragment that turns about the other end
+			if (edgesPassed(a, joint)) return Release::now; // a fragment turns about an end that still holds, or has slid away from its edge
 			if (ends < 2) return Release::later;
 			const Softened& soft = a.state.softened;
 			for (int i : { 2 * joint, 2 * joint + 1 })
