@@ -213,7 +213,8 @@ TEST(EdgeContact, WhatIsFreeStaysFree)
 	for (int i = 0; i < 20000; ++i) {
 		FourPoints p     = edges.points();
 		EdgeShape  s     = edges.shape();
-		const Vec2 shift = edges.between(0, 0.1) * direction();
+		Vec2       shift = edges.between(0, 0.1) * direction();
+		if (i % 2) shift = p[2 + i / 4 % 2] - p[i / 2 % 2] + std::pow(10, edges.between(-9, -2)) * direction(); // corners that all but meet
 		p[0] += shift, p[1] += shift;
 		if (touches(p, s)) continue;
 		++apart;
@@ -237,7 +238,7 @@ TEST(EdgeContact, WhatIsFreeStaysFree)
 		soon += distance > 0 && reached;
 	}
 	std::printf("apart: %d, free for some distance: %d, touching at 30 times that: %d\n", apart, free, soon);
-	EXPECT_GT(free, apart / 4); // the others overlap: they have faded out, and nothing is said about them
+	EXPECT_GT(free, apart * 6 / 10); // the others overlap, and have faded out in the middle of a block
 	EXPECT_GT(soon, free / 2);  // no bound that is safe because it is tiny
 }
 
