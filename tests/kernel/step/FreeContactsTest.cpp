@@ -965,14 +965,14 @@ TEST(FreeContacts, RestingChangesNothing)
 	for (int i = 0; i < 3000; ++i) {
 		s.steps(1, [&](Real) {
 			for (int c : resting.contacts.order)
-				for (Real until : resting.state.contacts[c].restsUntil)
+				for (const Rest& rest : resting.state.contacts[c].rests)
 					++pairs,
-						asleep += until > resting.contacts.odometer.path[resting.state.contacts[c].block[0]]
+						asleep += rest.until > resting.contacts.odometer.path[resting.state.contacts[c].block[0]]
 							+ resting.contacts.odometer.path[resting.state.contacts[c].block[1]];
 		});
 		for (FreeContact& c : restless.state.contacts) {
 			c.allRestUntil = 0;
-			std::fill(c.restsUntil.begin(), c.restsUntil.end(), 0);
+			std::fill(c.rests.begin(), c.rests.end(), Rest());
 		}
 		for (Sleep& contact : restless.contacts.sleep)
 			contact.until = 0;

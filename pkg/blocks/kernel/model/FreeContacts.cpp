@@ -99,7 +99,7 @@ void forgetActive(FreeContact& contact)
 {
 	contact.allRestUntil = 0;
 	contact.looks        = 0;
-	contact.restsUntil.assign(contact.edges.size(), 0);
+	contact.rests.assign(contact.edges.size(), {});
 	contact.active.clear();
 	contact.active.reserve(contact.edges.size()); // nothing is allocated inside a step
 }
@@ -108,8 +108,10 @@ void placeForces(BlockAssembly& a)
 {
 	FreeContacts& f    = a.contacts;
 	int           room = 0;
-	for (Sleep& s : f.sleep)
-		s.until = 0;
+	for (size_t place = 0; place < f.order.size(); ++place) {
+		const FreeContact& c = a.state.contacts[f.order[place]];
+		f.sleep[place].until = c.active.empty() ? c.allRestUntil : 0; // where pairs were found anew, it is 0
+	}
 	f.range.resize(a.state.contacts.size());
 	for (int i : f.order) {
 		f.range[i] = { room, room };

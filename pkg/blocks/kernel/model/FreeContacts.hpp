@@ -9,7 +9,8 @@
 /// `mayMove` x its mean edge; then they are looked for anew. What a pair of edges remembers (its slip) is carried over by the
 /// names of its edges, so nothing depends on the order in which contacts were made, or on threads.
 ///
-/// Most pairs do not touch. Such a pair rests, without being looked at, until the two blocks have gone so far that it might.
+/// Most pairs do not touch. Such a pair rests, without being looked at, until the two blocks have gone so far that it might. Blocks that move along
+/// together go far without nearing each other: so before a pair is looked at, its corners are compared with where they were.
 namespace blocks {
 
 /// Two edges of two blocks that touch or may do so soon.
@@ -26,13 +27,20 @@ struct EdgePair {
 	EdgeShape           shape;
 };
 
+/// What is known of a pair of edges that does not touch.
+struct Rest {
+	Real                until = 0; ///< it does not touch before the paths of the two blocks add up to this [m]
+	Real                free  = 0; ///< nor as long as its corners are this close to `from`, those of A and those of B taken together [m]
+	std::array<Vec2, 3> from;      ///< displacements of a1, b0, b1 less that of a0 when `free` was measured; none while it is 0 [m]
+};
+
 /// All that happens between two blocks, apart from their bonds.
 struct FreeContact {
 	std::array<int, 2>    block { -1, -1 }; ///< first < second; -1: an empty slot
-	Real                  allRestUntil = 0; ///< the least of restsUntil of those that do not touch [m]
+	Real                  allRestUntil = 0; ///< the least `until` of those that do not touch [m]
 	std::vector<int>      active;           ///< those of `edges` that touch, as of the last step
 	std::vector<EdgePair> edges;            ///< sorted by edge
-	std::vector<Real>     restsUntil;       ///< of each of `edges`: it does not touch before the paths of the two blocks add up to this [m]
+	std::vector<Rest>     rests;            ///< of each of `edges`
 	unsigned              looks    = 0;     ///< since its pairs were found
 	Real                  friction = 0;     ///< dissipated so far [J]
 	JointParams           joint;            ///< residual values count; kn = 0 until they are known
@@ -127,7 +135,7 @@ void nameEdges(const BlockAssembly&, EdgePair&);
 /// Which pairs touch is not known any more; the next step looks at all of them.
 void forgetActive(FreeContact&);
 
-/// Makes room for the forces of all contacts; again whenever pairs have come or gone. Nothing touches, and nothing sleeps, until the next step.
+/// Makes room for the forces of all contacts; again whenever pairs have come or gone. Nothing touches until the next step.
 void placeForces(BlockAssembly&);
 
 /// Computes again what is not saved; the next step looks for neighbours anew.

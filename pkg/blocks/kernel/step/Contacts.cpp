@@ -12,8 +12,11 @@ namespace {
 	/// Paths are sums over up to 1e9 steps: what is derived from them keeps this much away from rounding.
 	constexpr Real roundingShare = 1 - 1e-6;
 
+	/// Whether edges touch follows from so many roundings of the corners' coordinates, at most.
+	constexpr Real roundings = 64 * std::numeric_limits<Real>::epsilon();
+
 	/// Of so many looks at a contact one measures how far its pairs are from touching. No result depends on it.
-	constexpr int measuredLook = 8;
+	constexpr int measuredLook = 4;
 
 	/// What the paths of two blocks add up to, at least and at most: they may have gone on since they were brought up to date [m].
 	struct Paths {
@@ -24,6 +27,22 @@ namespace {
 		const Odometer& o    = a.contacts.odometer;
 		const Real      path = o.path[block[0]] + o.path[block[1]], unseen = 2 * std::sqrt(Real(2)) * o.unseen; // two blocks, two axes
 		return { path - unseen, path + unseen };
+	}
+
+	/// Where corners a1, b0, b1 have gone, as seen from a0 [m].
+	std::array<Vec2, 3> movesOf(const BlockAssembly& a, const EdgePair& e)
+	{
+		const Vec2* u = a.state.displacement.data();
+		const Vec2& o = u[e.node[0]];
+		return { u[e.node[1]] - o, u[e.node[2]] - o, u[e.node[3]] - o };
+	}
+
+	/// What is left of the distance in which a pair surely does not touch [m].
+	Real leftOf(const BlockAssembly& a, const Rest& rest, const EdgePair& e)
+	{
+		const std::array<Vec2, 3> now = movesOf(a, e);
+		const Real                ofB = std::max((now[1] - rest.from[1]).squaredNorm(), (now[2] - rest.from[2]).squaredNorm());
+		return rest.free - (now[0] - rest.from[0]).norm() - std::sqrt(ofB);
 	}
 
 	FourPoints points(const Corners& c) { return { c[0], c[1], c[2], c[3] }; }
@@ -143,9 +162,9 @@ namespace {
 		void enter(int i)
 		{
 			FreeContact& c    = a.state.contacts[awake[i].contact];
-			const Real   path = pathsOf(a, c.block).most;
+			const Paths  path = pathsOf(a, c.block);
 			++c.looks;
-			if (path < c.allRestUntil) { // only those that touch may have changed
+			if (path.most < c.allRestUntil) { // only those that touch may have changed
 				for (size_t k = 0; k < c.active.size(); ++k)
 					look(i, c, c.active[k]);
 				return;
@@ -153,10 +172,20 @@ namespace {
 			c.active.resize(c.edges.size()); // its capacity; the first ones are overwritten by those that touch
 			c.allRestUntil = std::numeric_limits<Real>::infinity();
 			for (int k = 0; k < int(c.edges.size()); ++k)
-				if (path < c.restsUntil[k])
-					c.allRestUntil = std::min(c.allRestUntil, c.restsUntil[k]);
+				if (path.most < c.rests[k].until || goesOnResting(c, k, path))
+					c.allRestUntil = std::min(c.allRestUntil, c.rests[k].until);
 				else
 					look(i, c, k);
+		}
+
+		/// Whether the corners of a pair are still close to where they were.
+		bool goesOnResting(FreeContact& c, int pair, const Paths& path) const
+		{
+			Rest& r = c.rests[pair];
+			if (!(r.free > 0)) return false;
+			const Real left = leftOf(a, r, c.edges[pair]);
+			r.until         = path.least + left;
+			return left > 0;
 		}
 
 		/// Puts a pair into the batch unless it plainly does not touch, and did not.
@@ -193,14 +222,17 @@ namespace {
 				e.slip = e.sigma = e.tau = { 0, 0 };
 				e.area                   = 0;
 			}
-			e.touching         = false;
-			c.restsUntil[pair] = pathsOf(a, c.block).least;
-			if (c.looks % measuredLook == 1) { // pairs at one corner have no such distance: asking for it costs more than looking again
-				const FourPoints p     = points(x);
-				const Real       lever = 1 + 2 * std::abs(e.uplift) / (p[1] - p[0]).norm(); // what is raised moves more where the edge turns
-				c.restsUntil[pair] += roundingShare * freeDistance(p, e.shape) / lever;
+			e.touching = false;
+			Rest& r    = c.rests[pair];
+			r.until    = pathsOf(a, c.block).least;
+			if (c.looks % measuredLook == 1) { // pairs that come and go have no such distance: asking for it costs more than looking again
+				const FourPoints p      = points(x);
+				const Real       lever  = 1 + 2 * std::abs(e.uplift) / (p[1] - p[0]).norm(); // what is raised moves more where the edge turns
+				const Real       extent = p[0].norm() + p[1].norm() + p[2].norm() + p[3].norm();
+				r.free                  = roundingShare * freeDistance(p, e.shape) / lever - roundings * extent;
+				if (r.free > 0) r.from = movesOf(a, e), r.until += r.free;
 			}
-			c.allRestUntil = std::min(c.allRestUntil, c.restsUntil[pair]);
+			c.allRestUntil = std::min(c.allRestUntil, r.until);
 		}
 
 		/// Works on what is in the batch and tells the pairs.
@@ -217,6 +249,7 @@ namespace {
 					rest(c, i, raisedCorners(a, e));
 					continue;
 				}
+				if (!e.touching) c.rests[i] = {};
 				for (int k : { 0, 1 })
 					e.slip[k] = batch.slip[k][lane], e.sigma[k] = batch.sigma[k][lane], e.tau[k] = batch.tau[k][lane];
 				e.area = batch.area[lane], e.potential = batch.potential[lane], e.touching = true;
