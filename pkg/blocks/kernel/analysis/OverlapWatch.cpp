@@ -86,7 +86,7 @@ int firstStrayed(const BlockAssembly& a)
 	for (int joint = 0; joint < a.joints.count(); ++joint) {
 		const int p = 2 * joint;
 		if (a.state.status[p] == Joint::intact || a.state.released[joint] || (a.state.sigma[p] == 0 && a.state.sigma[p + 1] == 0)) continue;
-		if (edgesPassed(a, joint)) return joint;
+		if (a.contacts.wanted ? edgesTurned(a, joint) : edgesPassed(a, joint)) return joint;
 	}
 	return -1;
 }

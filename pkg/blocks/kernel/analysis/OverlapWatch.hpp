@@ -11,7 +11,8 @@ struct BlockAssembly;
 /// The block of the first zone that has turned inside out, or -1.
 int firstInverted(const BlockAssembly&);
 
-/// The first joint that acts, though its edges, which ran against each other, have slid past each other or turned by more than a right angle; or -1.
+/// The first joint that acts, though its edges, which ran against each other, have turned by more than a right angle, or, without general contact, have slid
+/// past each other; or -1. With general contact the other edges of its blocks act, too, and a joint that has not broken may be long in sliding.
 int firstStrayed(const BlockAssembly&);
 
 /// Two edges, of two blocks, that overlap.
