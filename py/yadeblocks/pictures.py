@@ -185,6 +185,7 @@ def _drawCrackLines(axes, model, shown, names=None, joints=None):
 	handles = _drawSoftened(axes, model, lines, status, width, there)
 	for pair, count in counts.items():
 		for mode, value in modes.items():
+			if not count[mode]: continue
 			style = dict(color=colours[pair], linestyle=_modeStyles[mode], linewidth=width)
 			broken = (pairs == pair) & (status == value)
 			axes.add_collection(

@@ -143,7 +143,8 @@ class _View:
 		displacement = model.position - reference
 		self.displacement = displacement
 		self.there = Present(model)
-		displacement = displacement - np.median(displacement[self.there.nodes], axis=0)
+		self.carried = np.median(displacement[self.there.nodes], axis=0) # what the whole has moved by
+		displacement = displacement - self.carried
 		self.magnification = pictures._visible(
 			np.ptp(reference[self.there.nodes], axis=0).max(), displacement[self.there.nodes]
 		) if magnification is None else magnification
@@ -311,7 +312,7 @@ def _bars(axes, view, what, most=None, joints=None):
 	if what in ("opening", "slip"): there[:] = True
 	there &= view.there.points & pointsOf(model, joints)
 	lines, values = contactLines(model, view.shown)[there], values[there]
-	if not len(values): return
+	if not len(values): return _note(axes, "none")
 	normals = np.repeat(model.normal, 2, axis=0)[there]
 	most, factor, unit = _scale(_most(values) if most is None else most, "Pa" if what in ("sigma", "tau") else "m")
 	values = values / factor
@@ -348,8 +349,12 @@ def _contacts(axes, view):
 	pictures._drawBlocks(axes, view.model, view.shown)
 	lines, blocks, force = freeContactLines(view.model)
 	if not len(lines): return _note(axes, "no edges touch without a bond")
-	moved = view.magnification * (lines.mean(axis=1) - _referenceOf(view, lines))
-	shown = _referenceOf(view, lines)[:, None] + moved[:, None] + (lines - lines.mean(axis=1, keepdims=True))
+	size, before = np.hypot(*force.T), _referenceOf(view, lines)
+	drawn = (_facing(view) > 0.5) | (size > 0.01 * size.max()) # edges at a corner stand across each other and carry next to nothing
+	lines, force, before = lines[drawn], force[drawn], before[drawn]
+	if not len(lines): return _note(axes, "no edges touch without a bond")
+	moved = view.magnification * (lines.mean(axis=1) - before - view.carried)
+	shown = before[:, None] + moved[:, None] + (lines - lines.mean(axis=1, keepdims=True))
 	axes.add_collection(LineCollection(shown, colors="black", linewidths=1.2, zorder=2), autolim=False)
 	size = np.hypot(*force.T)
 	most, factor, unit = _scale(size.max(), "N")
@@ -359,6 +364,13 @@ def _contacts(axes, view):
 	for sign in (-1, 1):
 		axes.quiver(*middle.T, *(sign * reach * force).T, color=_blue, angles="xy", scale_units="xy", scale=1, width=0.003, pivot="tip", zorder=3)
 	_note(axes, f"arrows: forces between edges that touch without a bond; the longest {most:.3g} {unit}")
+
+
+def _facing(view):
+	"""How straight the two edges of each free contact face each other: 1 parallel, 0 at a right angle."""
+	a0, a1, b0, b1 = np.moveaxis(np.asarray(view.model.position)[view.model.freeContacts()["nodes"]], 1, 0)
+	unit = lambda edge: edge / np.maximum(np.hypot(*edge.T), 1e-300)[:, None]
+	return -(unit(a1 - a0) * unit(b1 - b0)).sum(axis=1)
 
 
 def _referenceOf(view, lines):
@@ -375,13 +387,18 @@ def _reactions(axes, view):
 	largest = max(np.hypot(*force) for _, _, force in found)
 	most, factor, unit = _scale(largest, "N")
 	reach = 0.2 * (view.high - view.low).max()
+	middle = (view.low + view.high) / 2
 	for name, place, force in found:
-		tip = np.clip(place, view.low, view.high)
+		place, arrow = np.clip(place, view.low, view.high), reach * force / largest
+		tail = place - arrow # the arrow ends where the force acts, or begins there, where it would leave the picture
+		if not ((tail >= view.low) & (tail <= view.high)).all(): tail = place
+		axes.annotate("", tail + arrow, tail, arrowprops=dict(arrowstyle="-|>", color=_red, linewidth=1.6, shrinkA=0, shrinkB=0), zorder=4)
+		shown = [0 if abs(component) < 1e-3 * largest else component / factor for component in force]
+		right = (tail + arrow / 2)[0] > middle[0]
 		axes.annotate(
-			"", tip, tip - reach * force / largest, arrowprops=dict(arrowstyle="-|>", color=_red, linewidth=1.6, shrinkA=0, shrinkB=0), zorder=4
+			f"{name}: {shown[0]:.3g}, {shown[1]:.3g} {unit}", tail + arrow / 2, (-6 if right else 6, 0), textcoords="offset points", fontsize=7,
+			ha="right" if right else "left", va="center", zorder=5, bbox=dict(facecolor="white", alpha=0.7, linewidth=0, pad=1)
 		)
-		text = f"{name}: {force[0] / factor:.3g}, {force[1] / factor:.3g} {unit}"
-		axes.text(*tip, text, fontsize=7, ha="center", va="bottom", zorder=5, bbox=dict(facecolor="white", alpha=0.7, linewidth=0, pad=1))
 	_note(axes, "forces on the blocks along x and y")
 
 

@@ -209,9 +209,10 @@ TEST(Removal, WhatIsLeftStandsOnItsContacts)
 
 TEST(Removal, WhatSlidesGoesOnSliding)
 {
-	// Three dry bricks on a held one under a pull aslant, beyond the angle of friction: they slide with g_x - mu g_y, whatever their mass, also after the
-	// uppermost has been taken off. That changes neither momentum nor place of what is left. Then the pull ends: they come to rest after v^2 / (2 mu g).
-	const Real  mu = 0.5, gx = 0.7 * 9.81, gy = 9.81;
+	// Three dry bricks on a held one under a pull aslant, beyond the angle of friction, slide; without damping they rattle, so that there is no closed
+	// form. The uppermost is taken off meanwhile: what is left has the velocities it had, and goes on sliding. Momentum is what loads and held edges give,
+	// to rounding; energy is in the accounts. Then the pull ends, and they come to rest on their friction.
+	const Real  mu = 0.5, g = 9.81;
 	JointParams dry = elasticJoint(5e9, 2e9);
 	dry.tension = dry.cohesion = 0, dry.tanPhi = dry.tanPhiResidual = mu;
 	BlockAssembly a = column(4, 1.6, 0.4, 1, 1, stone(), dry, 0.4);
@@ -220,58 +221,73 @@ TEST(Removal, WhatSlidesGoesOnSliding)
 	a.joints.ofMaterials = { a.addKind(neverBonded(dry)) };
 	for (int axis : { 0, 1 })
 		a.addGroup(driven("held " + std::to_string(axis), dofs(a, axis, [](const Vec2& x) { return x.y() < 0.2; }), 0));
-	addGravity(a, { 0, -gy });
+	addGravity(a, { 0, -g });
 	setGeneralContact(a, true);
-	const Real dt     = 0.3 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
-	Real       booked = 0, pending = 0, worst = 0, most = 0, time = 0;
+	const Real dt       = 0.3 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
+	const auto momentum = [&] {
+		Vec2 sum = Vec2::Zero();
+		for (int n = 0; n < a.nodeCount(); ++n)
+			sum += a.mesh.mass[n] * a.state.velocity[n];
+		return sum;
+	};
+	Real       booked = 0, pending = 0, shift = 0, time = 0, errorOfEnergy = 0, errorOfMomentum = 0;
 	const auto run = [&](Real duration, Real alpha) {
 		Damping damping;
 		damping.alpha = alpha;
 		if (alpha == 0) damping.kind = Damping::Kind::none;
+		Vec2 impulse = Vec2::Zero(), start = momentum();
+		Real turnover = 0;
 		for (const Real end = time + duration; time < end; time += dt) {
 			blocks::computeForces(a, Brittle {}, dt, true);
 			const Real     stored = specimens::storedEnergy(a), loads = loadWork(a);
 			const StepWork w = integrate(a, damping, dt, time, true);
 			booked += pending + w.dampingBefore;
 			pending         = w.dampingAfter;
-			const auto& acc = a.state.accounts;
-			most            = std::max(most, acc.friction);
-			worst           = std::max(
-                                worst, std::abs(stored + w.kinetic + booked + acc.friction + acc.fracture + a.state.further.removed - groupWork(a) - loads));
+			const Real lost = booked + a.state.accounts.friction + contactFriction(a) + a.state.further.removed;
+			errorOfEnergy   = std::max(errorOfEnergy, std::abs(stored + w.kinetic + lost - groupWork(a) - loads + shift));
+			Vec2 force(a.state.groups[0].force, a.state.groups[1].force);
+			for (const Vec2& load : a.supports.load)
+				force += load;
+			impulse += dt * force;
+			turnover += dt * force.norm();
 		}
+		if (alpha == 0) errorOfMomentum = std::max(errorOfMomentum, (momentum() - start - impulse).norm() / turnover);
 	};
-	const auto speed = [&] { // of the second and the third brick, along x
-		Real momentum = 0, mass = 0;
-		for (int n = a.mesh.firstNode[1]; n < a.mesh.firstNode[3]; ++n)
-			momentum += a.mesh.mass[n] * a.state.velocity[n].x(), mass += a.mesh.mass[n];
-		return momentum / mass;
+	const auto pull = [&](Real x) { // dead loads count from the reference: what is displaced already gets a share at once
+		shift -= loadWork(a);
+		addGravity(a, { x, 0 });
+		shift += loadWork(a);
 	};
-	run(0.05, 0.5);           // the weight comes to rest
-	const Real rattle = 2e-3; // local damping does not know a sliding velocity from a vibration: what is left of the start
-	ASSERT_LT(std::abs(speed()), rattle);
-	addGravity(a, { gx, 0 });
-	const Real expected = gx - mu * gy;
-	const Real before = speed(), from = time;
-	run(0.1, 0);
-	EXPECT_NEAR((speed() - before) / (time - from), expected, 0.01 * expected);
-	ASSERT_GT(a.state.accounts.friction, 0);
-
-	const Real atRemoval = speed();
+	const auto speed = [&](int block) {
+		Real sum = 0, mass = 0;
+		for (int n = a.mesh.firstNode[block]; n < a.mesh.firstNode[block + 1]; ++n)
+			sum += a.mesh.mass[n] * a.state.velocity[n].x(), mass += a.mesh.mass[n];
+		return sum / mass;
+	};
+	run(0.05, 0.5); // the weight comes to rest
+	pull(0.7 * g);
+	run(0.15, 0);
+	const Real first = speed(1), second = speed(2), friction = contactFriction(a), place = a.centroid(1).x();
+	EXPECT_GT(first, 0.1);
+	EXPECT_GT(second, 0.1);
 	removeBlocks(a, { 3 });
-	EXPECT_EQ(speed(), atRemoval);
-	const Real since = time;
+	EXPECT_EQ(speed(1), first);
+	EXPECT_EQ(speed(2), second);
 	run(0.1, 0);
-	EXPECT_NEAR((speed() - atRemoval) / (time - since), expected, 0.01 * expected); // rebound in y swings about the weight that is left
-
-	addGravity(a, { -gx, 0 });
-	const Real fast = speed(), place = a.centroid(1).x(), ending = 1.2 * fast / (mu * gy);
-	run(ending, 0);
-	EXPECT_LT(std::abs(speed()), 0.02 * fast);
-	EXPECT_NEAR(a.centroid(1).x() - place, fast * fast / (2 * mu * gy), 0.02 * fast * fast / (2 * mu * gy));
-	run(0.05, 0.7);
+	EXPECT_GT(speed(1), 0.1);
+	EXPECT_GT(a.centroid(1).x() - place, 0.01);
+	EXPECT_GT(contactFriction(a), 1.2 * friction);
+	pull(-0.7 * g);
+	run(0.15, 0);
+	run(0.2, 0.7);
 	blocks::computeForces(a, Brittle {}, dt, true);
-	EXPECT_LT(unbalancedRatio(a), 1e-3);
-	EXPECT_LT(worst, 1e-3 * most);
+	EXPECT_LT(unbalancedRatio(a), 1e-4);
+	Real weight = 0;
+	for (Real mass : a.mesh.mass)
+		weight += g * mass;
+	EXPECT_NEAR(a.state.groups[1].force, weight, 1e-3 * weight);
+	EXPECT_LT(errorOfMomentum, 1e-12);                   // rounding
+	EXPECT_LT(errorOfEnergy, 5e-3 * contactFriction(a)); // steps are finite where edges slide and bounce: 1.2e-3 here
 }
 
 TEST(Removal, Refusals)
