@@ -7,8 +7,8 @@ right one, a tenth of each side, is driven along the diagonal without turning. S
 	scripts/run.sh diagonal [key=value ...]        about 10 s
 
 Expected: while all is elastic, a tension of 0.5 P / A in the centre (RILEM, from Frocht 1931, for a body without joints). Joints that are softer in shear
-than across raise it to 0.59 here (kn=82e11 ks=36e11: 0.47). They have the properties of the wall J4D. There is no measurement with these properties; if all of one bed joint slid at once the strength would be
-cohesion / (1 - friction), a bound that it must not pass.
+than across raise it to 0.59 here (kn=82e11 ks=36e11: 0.47). They have the properties of the wall J4D. There is no measurement with these
+properties; if all of one bed joint slid at once the strength would be cohesion / (1 - friction), a bound that it must not pass.
 """
 from math import atan
 

@@ -107,10 +107,8 @@ def _said(name, parameters, given, named):
 	values = {**dict(zip(words, given)), **named}
 	missing = [word for word, _, default in parameters if default is inspect.Parameter.empty and word not in values]
 	if missing: return f"{name} needs {' and '.join(missing)}: {name}{_signature(parameters)}"
-	wrong = [
-		(word, kind) for word, kind, default in parameters
-		if word in values and not _fits(values[word], kind) and not (values[word] is None and default is None)
-	]
+	wrong = [(word, kind) for word, kind, default in parameters
+			if word in values and not _fits(values[word], kind) and not (values[word] is None and default is None)]
 	return f"{name}.{wrong[0][0]} must be {_words.get(wrong[0][1], wrong[0][1])}, got {values[wrong[0][0]]!r}" if wrong else None
 
 

@@ -162,10 +162,8 @@ class BlocksExport:
 	which number stands for which.
 
 	Zones: block, material (number in O.materials' order), stresses sxx, syy, sxy, szz, principal stresses s1, s2 in the plane and vonMises [Pa],
-	strains exx, eyy, exy;
-	grid points:
-	displacement [m], velocity [m/s]; joints: firstBlock, secondBlock, name (a number, -1 without), normal (out of the first block), area [m2], opening [m], slip [m], sigma
-	[Pa], tau [Pa],
+	strains exx, eyy, exy; grid points: displacement [m], velocity [m/s];
+	joints: firstBlock, secondBlock, name (a number, -1 without), normal (out of the first block), area [m2], opening [m], slip [m], sigma [Pa], tau [Pa],
 	status (0 intact, 1 broken in tension, 2 in shear, 3 never bonded, 4 softening) and damage (0 whole to 1, only residual strength is left);
 	contacts: firstBlock, secondBlock and force on the first [N]."""
 	def __init__(self, folder):

@@ -15,9 +15,7 @@
 import numpy as np
 
 from . import files, pictures
-from .export import (
-	Present, blockOutlines, contactLines, freeContactLines, jointMotion, outOfPlaneStress, pointNames, pointsOf, principalStresses, vonMises
-)
+from .export import (Present, blockOutlines, contactLines, freeContactLines, jointMotion, outOfPlaneStress, pointNames, pointsOf, principalStresses, vonMises)
 from .snapshot import reactionsOf
 
 #: What contours can show: displacements u, ux, uy of the grid points and stresses of the zones.
@@ -57,8 +55,8 @@ def drawJoints(path, model, what, magnification=None, window=None, title="", joi
 
 
 def drawNames(path, model, magnification=None, window=None, title="joints by name", joints=None):
-	"""Joints as lines, coloured by their names (BlockModel.nameJoints; else by their pairs of materials), with how many each name has. joints: which, a name,
-	a list of names or indices, by default all."""
+	"""Joints as lines, coloured by their names (BlockModel.nameJoints; else by their pairs of materials), with how many each name has. joints: which, a
+	name, a list of names or indices, by default all."""
 	return _alone(path, model, lambda axes, view: _joints(axes, view, joints), magnification, window, title, drop=9)
 
 

@@ -29,7 +29,8 @@ class Platen:
 			raise ValueError(f"Platen.velocity must be a vector (vx, vy) [m/s], got {velocity!r}")
 		if not (rampTime >= 0 and np.isfinite(rampTime)): raise ValueError(f"Platen.rampTime must not be negative [s], got {rampTime!r}")
 		body = model.bodyOf(self.block)
-		if model.firstZone[self.block] != model.firstZone[self.block + 1]: raise ValueError(f"Platen.block must be rigid, got {block!r}, which has zones")
+		if model.firstZone[self.block] != model.firstZone[self.block + 1]:
+			raise ValueError(f"Platen.block must be rigid, got {block!r}, which has zones")
 		self.servo = None if servo is None else _servo(**servo)
 		self.throttle, self._startTime, self._start = 1.0, Omega().time, Omega().iter
 		self.body = Omega().bodies[body]
@@ -57,7 +58,8 @@ class Platen:
 		return runner(f"platen {self.block}", self, initRun=True)
 
 	def jump(self, fraction=0.97):
-		"""BlockModel.elasticJump with this platen at its velocity; there is no ramp any more. What it returns, and its errors, after which all is as it was."""
+		"""BlockModel.elasticJump with this platen at its velocity; there is no ramp any more. What it returns, and its errors, after which all is as it
+		was."""
 		before, self.rampTime = self.rampTime, 0.0
 		self._setSpeed()
 		try:
@@ -69,7 +71,8 @@ class Platen:
 
 	@property
 	def force(self):
-		"""Force that drives it, along x and y, in the last step [N], an array: what it puts on the blocks, if nothing else (weight, permF) acts on it."""
+		"""Force that drives it, along x and y, in the last step [N], an array: what it puts on the blocks, if nothing else (weight, permF) acts on
+		it."""
 		from yade.wrapper import Omega
 		return -np.array(Omega().forces.f(self.body.id))[:2]
 

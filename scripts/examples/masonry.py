@@ -15,7 +15,7 @@ model = BlockModel(thickness=0.1)
 placed = wall.addTo(model, 'brick', zoneSize=0.06)
 mortar = dict(kn=82e9, ks=36e9, tension=0.25e6, cohesion=0.35e6, frictionAngle=0.6435)
 
-# ---- joints have names: bed, head, unit in the middle of each brick, platen with blocks of other builders; and those that we give
+# ---- joints have names: bed, head, unit in the middle of each brick, platen with other blocks; and those that we give
 placed.bond(model, [JointMat(material1='brick', material2='brick', **mortar)], unit=dict(kn=1e15, ks=1e15, tension=2e6, cohesion=2.8e6))
 places = model.contactPositions().reshape(-1, 2, 2).mean(axis=1)
 model.nameJoints('lowest bed', [i for i in model.jointsNamed('bed') if places[i, 1] < 0.07])

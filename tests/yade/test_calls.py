@@ -50,9 +50,14 @@ def model():
 		(lambda m: m.drive('a', [0.5], 'x'), ValueError, 'indices must be whole numbers, got 0.5'),
 		(lambda m: m.drive('a', None, 'x'), ValueError, 'indices must be whole numbers, got None'),
 		(lambda m: m.traction('top', (0, 1)), ValueError, "indices must be whole numbers, got 'top'"),
-		(lambda m: m.viscous('a', [0], impedance=3), ValueError, 'viscous boundary "a": impedance must be a pair of numbers, normal and tangential, got 3'),
-		(lambda m: m.viscous('a', [0], impedance=('a', 1)), ValueError, 'viscous boundary "a": impedance must be a pair of numbers, normal and tangential, '),
-		(lambda m: m.addRegion(box, 'unit', 0.5, holes=3), ValueError, 'holes must be a list of polygons, got 3'),
+		(
+			lambda m: m.viscous('a', [0], impedance=3), ValueError,
+			'viscous boundary "a": impedance must be a pair of numbers, normal and tangential, got 3'
+		),
+		(
+			lambda m: m.viscous('a', [0], impedance=('a', 1)), ValueError,
+			'viscous boundary "a": impedance must be a pair of numbers, normal and tangential, '
+		), (lambda m: m.addRegion(box, 'unit', 0.5, holes=3), ValueError, 'holes must be a list of polygons, got 3'),
 		(lambda m: setattr(m, 'displacement', 3), AttributeError, 'BlockModel.displacement cannot be set; write into it'),
 		(lambda m: setattr(m, 'position', 3), AttributeError, 'BlockModel.position cannot be set'),
 		(lambda m: m.groupWerk('a'), AttributeError, 'BlockModel has no attribute groupWerk (did you mean groupWork?)'),
@@ -63,8 +68,10 @@ def model():
 		(lambda m: NumpyLaw(3), TypeError, 'NumpyLaw.function must be a function of the columns, got 3'),
 		(lambda m: m.group(), TypeError, 'BlockModel.group needs name: BlockModel.group(name, nodes=None)'),
 		(lambda m: m.group('a', knots=[0]), TypeError, 'BlockModel.group has no argument knots (did you mean nodes?)'),
-		(lambda m: loading.settle(m, ratoi=1), TypeError, 'settle has no argument ratoi (did you mean ratio?); known: model ratio floor period maxSteps'),
-		(lambda m: loading.settle(m, ratio='x'), TypeError, "settle.ratio must be a number, got 'x'"),
+		(
+			lambda m: loading.settle(m, ratoi=1), TypeError,
+			'settle has no argument ratoi (did you mean ratio?); known: model ratio floor period maxSteps'
+		), (lambda m: loading.settle(m, ratio='x'), TypeError, "settle.ratio must be a number, got 'x'"),
 		(lambda m: loading.Stop(dorp=1), TypeError, 'Stop has no argument dorp (did you mean drop?)'),
 		(lambda m: loading.Stop(drop='x'), TypeError, "Stop.drop must be a number, got 'x'"),
 		(lambda m: loading.Motion(m, 'top', 3), ValueError, 'Motion.values must be a function of the time or a table (times, values), got 3'),

@@ -40,7 +40,8 @@ def test_eventsAreTheBrokenPoints(tmp_path):
 	for line, e in zip(file, events):
 		assert int(line[0]) == e['step'] and float(line[1]) == pytest.approx(e['time'], rel=1e-8) and line[6] == e['mode']
 		assert (float(line[2]), float(line[3])) == pytest.approx(tuple(e['position']), rel=1e-8)
-		assert tuple(map(int, line[7:9])) == tuple(e['ids']) and tuple(line[9:11]) == e['materials'] and float(line[11]) == e['damage'] == 1 and line[12:] == ['-']
+		assert tuple(map(int, line[7:9])
+				) == tuple(e['ids']) and tuple(line[9:11]) == e['materials'] and float(line[11]) == e['damage'] == 1 and line[12:] == ['-']
 		assert np.hypot(float(line[4]), float(line[5])) == pytest.approx(1, rel=1e-8)
 
 

@@ -63,8 +63,8 @@ def test_unnamed():
 
 
 @pytest.mark.parametrize(
-	'call, error, words', [
-		(lambda m: m.nameJoints('', [0]), ValueError, 'a name of joints must not be empty'),
+	'call, error, words',
+	[(lambda m: m.nameJoints('', [0]), ValueError, 'a name of joints must not be empty'),
 		(lambda m: m.nameJoints('a', []), ValueError, 'name of joints "a": there must be at least one joint'),
 		(lambda m: m.nameJoints('a', [10**6]), ValueError, 'BlockModel.nameJoints: no such joint'),
 		(lambda m: m.nameJoints('a', [-1]), ValueError, 'BlockModel.nameJoints: no such joint'),
@@ -72,8 +72,7 @@ def test_unnamed():
 		(lambda m: m.setJoints('beds', cohesion=1), ValueError, 'BlockModel.setJoints: no joint has the name "beds"; there are: '),
 		(lambda m: m.jointsNamed(['bed', 'b']), ValueError, 'BlockModel.jointsNamed: no joint has the name "b"; there are: '),
 		(lambda m: m.jointsNamed(3), ValueError, 'BlockModel.jointsNamed.name must be a text or a list of texts, got 3'),
-		(lambda m: pictures.drawCracks('nowhere.png', m, joints='b'), ValueError, "no joint has the name 'b'; there are bed, head, unit")
-	]
+		(lambda m: pictures.drawCracks('nowhere.png', m, joints='b'), ValueError, "no joint has the name 'b'; there are bed, head, unit")]
 )
 def test_namesThatCannotBe(call, error, words):
 	model, _ = wall()
@@ -96,7 +95,8 @@ def test_namesAreSaved(ending, tmp_path):
 	O.save(str(tmp_path / f'wall.{ending}'))
 	O.load(str(tmp_path / f'wall.{ending}'))
 	again = scenes.model()
-	assert list(again.jointNames) and {name: list(again.jointsNamed(name)) for name in again.jointNames} == {name: list(some) for name, some in joints.items()}
+	assert list(again.jointNames) and {name: list(again.jointsNamed(name)) for name in again.jointNames
+						} == {name: list(some) for name, some in joints.items()}
 
 
 def test_filesOfAnotherFormatAreRefused(tmp_path):

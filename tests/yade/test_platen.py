@@ -3,7 +3,6 @@
 import pytest
 
 from scenes import *
-from yadeblocks import loading
 from yadeblocks.engines import loopList
 from yadeblocks.platen import Platen
 
@@ -89,11 +88,11 @@ def test_servoOfAPlaten():
 
 
 @pytest.mark.parametrize(
-	'arguments, words',
-	[(dict(velocity=3), 'Platen.velocity must be a vector'), (dict(velocity=(0, np.nan)), 'Platen.velocity must be a vector'),
-		(dict(rampTime=-1), 'Platen.rampTime must not be negative'), (dict(servo=dict(target=0)), 'Platen.servo: target must be positive'),
-		(dict(servo=dict(least=2)), 'Platen.servo: least must lie in'), (dict(servo=dict(period=0)), 'Platen.servo: period must be'),
-		(dict(servo=dict(floor=-1)), 'Platen.servo: floor must not be negative'), (dict(block=0), 'Platen.block must be rigid, got 0')]
+	'arguments, words', [(dict(velocity=3), 'Platen.velocity must be a vector'), (dict(velocity=(0, np.nan)), 'Platen.velocity must be a vector'),
+				(dict(rampTime=-1), 'Platen.rampTime must not be negative'),
+				(dict(servo=dict(target=0)), 'Platen.servo: target must be positive'),
+				(dict(servo=dict(least=2)), 'Platen.servo: least must lie in'), (dict(servo=dict(period=0)), 'Platen.servo: period must be'),
+				(dict(servo=dict(floor=-1)), 'Platen.servo: floor must not be negative'), (dict(block=0), 'Platen.block must be rigid, got 0')]
 )
 def test_platenThatCannotBe(arguments, words):
 	model, platen = between((0, 0))
@@ -147,13 +146,14 @@ def test_aHandleIsDriven():
 
 
 @pytest.mark.parametrize(
-	'arguments, error, words',
-	[(('lid', ), ValueError, 'no motion group "lid"'), ((3, [0]), TypeError, 'BlockModel.group.name must be a text, got 3'),
-		(('a', []), ValueError, "BlockModel.group 'a': there must be at least one grid point"),
-		(('a', [0.5]), ValueError, "BlockModel.group 'a': nodes must be indices"), (('a', ['b']), ValueError, "BlockModel.group 'a': nodes must be indices"),
-		(('a', [-1]), ValueError, r"BlockModel.group 'a': grid points lie in \[0, "), (('a', [10**6]), ValueError, 'got 1000000'),
-		(('top', [0, 1]), ValueError, "BlockModel.group 'top': there is a motion group of this name with other grid points"),
-		(('a', lambda x, y: y > 9), ValueError, 'no grid point is chosen')]
+	'arguments, error, words', [(('lid', ), ValueError, 'no motion group "lid"'), ((3, [0]), TypeError, 'BlockModel.group.name must be a text, got 3'),
+					(('a', []), ValueError, "BlockModel.group 'a': there must be at least one grid point"),
+					(('a', [0.5]), ValueError, "BlockModel.group 'a': nodes must be indices"),
+					(('a', ['b']), ValueError, "BlockModel.group 'a': nodes must be indices"),
+					(('a', [-1]), ValueError, r"BlockModel.group 'a': grid points lie in \[0, "),
+					(('a', [10**6]), ValueError, 'got 1000000'),
+					(('top', [0, 1]), ValueError, "BlockModel.group 'top': there is a motion group of this name with other grid points"),
+					(('a', lambda x, y: y > 9), ValueError, 'no grid point is chosen')]
 )
 def test_aHandleThatCannotBe(arguments, error, words):
 	m = couplet()

@@ -239,7 +239,7 @@ TEST(EdgeContact, WhatIsFreeStaysFree)
 	}
 	std::printf("apart: %d, free for some distance: %d, touching at 30 times that: %d\n", apart, free, soon);
 	EXPECT_GT(free, apart * 6 / 10); // the others overlap, and have faded out in the middle of a block
-	EXPECT_GT(soon, free / 2);  // no bound that is safe because it is tiny
+	EXPECT_GT(soon, free / 2);       // no bound that is safe because it is tiny
 }
 
 TEST(EdgeContact, SlipIsObjective)
