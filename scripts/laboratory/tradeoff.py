@@ -80,8 +80,8 @@ def summarise(case, model, knob, label, names, results, truths, references, isRe
 	mean = lambda values: (float(np.mean(values)), float(np.std(values, ddof=1)) if len(values) > 1 else math.nan) if values else (math.nan, math.nan)
 
 	def against(name):
-		pairs = [(result["measures"][name], references[seed]["measures"][name]) for seed, result in good.items()
-				if references.get(seed) and "failed" not in references[seed] and name in result["measures"]]
+		known = {seed: other["measures"][name] for seed, other in references.items() if other and name in other.get("measures", {})}
+		pairs = [(result["measures"][name], known[seed]) for seed, result in good.items() if seed in known and name in result["measures"]]
 		return errorOf(*zip(*pairs)) if pairs else None
 
 	missing = sum(result is None for result in results.values())

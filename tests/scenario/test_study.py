@@ -325,6 +325,14 @@ def test_rowsCompareSeedWithSeed():
 	assert row.worst("reference") == pytest.approx(math.sqrt((0.05**2 + 0.1**2) / 2)) and math.isnan(row.rms("laboratory", "joint_stiffness"))
 
 
+def test_aReferenceMayKnowThePeakAlone():
+	"""That of a path from event to event, which has no residual."""
+	whole = lambda peak, residual: {**result(0), "measures": {"peak_shear_stress": peak, **({"residual_shear_stress": residual} if residual else {})}}
+	row = tradeoff.summarise("shear 0.1", "blocks", "steps", "6k steps", tradeoff.quantities["shear"], {1: whole(1.1, 0.2)}, {}, {1: whole(1.0, None)})
+	assert row.reference["peak_shear_stress"].mean == pytest.approx(0.1) and row.reference["residual_shear_stress"] is None
+	assert "6k steps" in tradeoff.asMarkdown([row], tradeoff.quantities["shear"])
+
+
 def test_runsWithoutPeakAreTold():
 	results = {seed: {**result(0.4), "quality": {"without_peak": [seed] * (seed > 1)}} for seed in (1, 2, 3)}
 	row = tradeoff.summarise("tension", "cpm", "steps", "5k steps", tradeoff.quantities["tension"], results, {"peak_tensile_stress": 0.35}, {})
