@@ -138,7 +138,10 @@ def reading(rows, names, limits=(0.05, 0.02, 0.01), most=10):
 	converged = [row for row in rows if row.model == "blocks" and row.isReference and row.laboratory.get(peak)]
 	near = converged or [row for row in blocks if row.sound and row.laboratory.get(peak)]
 	if near:
-		lines.append(f"Laboratory: {near[0].label if slow or not converged else 'the slow run'} gives " + _laboratory(near[0], names) + ".")
+		lines.append(
+			f"Laboratory: {near[0].label if not converged or near[0].label.startswith('events') else 'the slow run'} gives " +
+			_laboratory(near[0], names) + "."
+		)
 	soft = [row for row in rows if row.knob == "softening" and row.sound and not math.isnan(row.rms("reference", peak))]
 	if soft:
 		told = "; ".join(f"{row.label} {_percent(row.rms('reference', peak))} ({row.cpu:.2g} CPU s)" for row in soft)
