@@ -6,7 +6,7 @@
 After a precompression of 0.30 N/mm2 the upper one is held at its height, horizontal, and driven sideways.
 
 	scripts/run.sh wall [detail=interface] [key=value ...]        about half a minute
-	scripts/run.sh wall detail=mortar [key=value ...]             about ten CPU minutes
+	scripts/run.sh wall detail=mortar [key=value ...]             about eight CPU minutes, and too fast
 
 detail=interface: bricks grow by half a joint, bed and head joints have no thickness and soften, and so does a possible crack in the middle of each brick
 (crack=false: none). Joints: kn 82, ks 36 N/mm3, tension 0.25, cohesion 0.35 N/mm2, friction 0.75, GfI 18, GfII 125 N/m; cap 10.5 N/mm2 with Css 9, peak at
