@@ -1,7 +1,8 @@
 // yade-blocks, GPL-2.0-or-later
 
 // Random scenes through the step. Run by scripts/fuzz.sh part=scenes.
-//   scene_fuzz COUNT SEED [FIRST]
+//   scene_fuzz COUNT SEED [FIRST [soften]]
+// soften: joints have fracture energies (part=softening).
 // Case i of a seed is the same whatever the count: random cells or polygons that fly, materials over 12 orders of magnitude, joints, damping, safety, loads,
 // rigid blocks, contacts on and off. Every scene must be
 //   - refused, by an exception whose sentence is counted; or

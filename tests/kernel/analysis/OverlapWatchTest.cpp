@@ -46,30 +46,34 @@ TEST(OverlapWatch, SeesJointsThatActThoughTheirEdgesDoNotMeet)
 	// Two squares of 0.4 m on each other with a broken joint, which presses. The upper one is pushed along, or turned about the middle of the joint.
 	JointParams joint = elasticJoint(1e9, 5e8);
 	joint.cohesion = joint.tension = 0;
-	auto look = [&](Real along, Real turn, Joint status = Joint::brokenInShear, Real stress = -1, bool released = false, bool contact = false) {
-		BlockAssembly a;
-		a.addMaterial(stone());
-		addGrid(a, { 0, 0 }, 0.4, 0.4, 1, 1);
-		addGrid(a, { 0, 0.4 }, 0.4, 0.4, 1, 1);
-		bondAll(a, joint);
-		const Vec2 middle(0.2, 0.4);
-		for (int n = a.mesh.firstNode[1]; n < a.mesh.firstNode[2]; ++n) {
-			const Vec2 arm = a.mesh.reference[n] - middle;
-			a.place(n, middle + Vec2(along, 0) + std::cos(turn) * arm + std::sin(turn) * Vec2(-arm.y(), arm.x()));
-		}
-		for (int p : { 0, 1 })
-			a.state.status[p] = status, a.state.sigma[p] = stress, a.state.slip[p] = along;
-		a.state.released[0] = released, a.contacts.wanted = contact;
-		EXPECT_EQ(StabilityWatch::lookAtEnd(a).stable, firstStrayed(a) < 0);
-		return firstStrayed(a) == 0;
-	};
+	auto look =
+		[&](Real along, Real turn, Joint status = Joint::brokenInShear, Real stress = -1, bool released = false, bool contact = false, int whole = -1) {
+			BlockAssembly a;
+			a.addMaterial(stone());
+			addGrid(a, { 0, 0 }, 0.4, 0.4, 1, 1);
+			addGrid(a, { 0, 0.4 }, 0.4, 0.4, 1, 1);
+			bondAll(a, joint);
+			const Vec2 middle(0.2, 0.4);
+			for (int n = a.mesh.firstNode[1]; n < a.mesh.firstNode[2]; ++n) {
+				const Vec2 arm = a.mesh.reference[n] - middle;
+				a.place(n, middle + Vec2(along, 0) + std::cos(turn) * arm + std::sin(turn) * Vec2(-arm.y(), arm.x()));
+			}
+			for (int p : { 0, 1 })
+				a.state.status[p] = status, a.state.sigma[p] = stress, a.state.slip[p] = along;
+			if (whole >= 0) a.state.status[whole] = Joint::intact;
+			a.state.released[0] = released, a.contacts.wanted = contact;
+			EXPECT_EQ(StabilityWatch::lookAtEnd(a).stable, firstStrayed(a) < 0);
+			return firstStrayed(a) == 0;
+		};
 	EXPECT_FALSE(look(0.79, 0)); // edges of 0.4 m each still meet at their ends, if they had been bonded end to end
 	EXPECT_TRUE(look(0.81, 0) && look(-0.81, 0));
 	EXPECT_FALSE(look(0, 1.5) || look(0, -1.5));
 	EXPECT_TRUE(look(0, 1.6) && look(0, -1.6));
 	EXPECT_FALSE(look(0.81, 0, Joint::softening, -1, false, true)); // other edges act, too
 	EXPECT_TRUE(look(0, 1.6, Joint::softening, -1, false, true));
-	for (Real along : { 0., 0.81 }) { // what is open, whole or a free contact does not act there
+	for (int whole : { 0, 1 })
+		EXPECT_TRUE(look(0, 1.6, Joint::brokenInShear, -1, false, true, whole)); // turned about the end that holds
+	for (Real along : { 0., 0.81 }) {                                                // what is open, whole or a free contact does not act there
 		EXPECT_FALSE(look(along, 1.6, Joint::brokenInShear, 0));
 		EXPECT_FALSE(look(along, 1.6, Joint::intact));
 		EXPECT_FALSE(look(along, 1.6, Joint::brokenInShear, -1, true));

@@ -21,7 +21,7 @@ struct ModePoint {
 	Mode       mode     = Mode::intact;
 	bool       dilating = false;
 	Real       sign     = 0; ///< of the slip, where it slides
-	Real       lag      = 0; ///< while it dilates: uplift that its slip has not brought, see `lifted` [m]
+	Real       lag      = 0; ///< while it dilates: uplift that its slip has not brought, see `dilated` [m]
 	JointState state;
 };
 

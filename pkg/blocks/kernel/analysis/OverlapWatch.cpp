@@ -85,7 +85,9 @@ int firstStrayed(const BlockAssembly& a)
 {
 	for (int joint = 0; joint < a.joints.count(); ++joint) {
 		const int p = 2 * joint;
-		if (a.state.status[p] == Joint::intact || a.state.released[joint] || (a.state.sigma[p] == 0 && a.state.sigma[p + 1] == 0)) continue;
+		if (a.state.released[joint] || (a.state.status[p] == Joint::intact && a.state.status[p + 1] == Joint::intact)
+		    || (a.state.sigma[p] == 0 && a.state.sigma[p + 1] == 0))
+			continue;
 		if (a.contacts.wanted ? edgesTurned(a, joint) : edgesPassed(a, joint)) return joint;
 	}
 	return -1;
