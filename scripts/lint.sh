@@ -1,5 +1,6 @@
 #!/bin/bash
-# How the code looks: clang-format, yapf, flake8, and no line beyond 160 columns in any document. scripts/lint.sh checks, scripts/lint.sh fix formats.
+# How the code looks: clang-format, yapf, flake8, and no line beyond 160 columns in any document; and patches
+# of tests/breakages that can be applied. scripts/lint.sh checks, scripts/lint.sh fix formats.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install.sh clang-format yapf3 flake8
@@ -13,6 +14,7 @@ if [ "${1:-}" = fix ]; then
 	exit
 fi
 failed=0
+for patch in tests/breakages/*.patch; do git apply --check "$patch" || failed=1; done # what cannot be applied breaks nothing
 clang-format --dry-run -Werror "${cpp[@]}" || failed=1
 yapf3 -d -p "${py[@]}" || failed=1
 flake8 "${py[@]}" || failed=1
