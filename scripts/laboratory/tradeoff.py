@@ -114,7 +114,9 @@ def cheapest(rows, limit, error):
 def reading(rows, names, limits=(0.05, 0.02, 0.01), most=10):
 	"""What the plot of one case shows, in at most so many lines; what failed is always among them. names: the quantities, the peak first."""
 	peak, lines = names[0], []
-	blocks = [row for row in rows if row.model == "blocks" and not row.isReference and row.knob not in (*specimenKnobs, "half as slow", "slow")]
+	exact = any(row.knob == "slow" for row in rows) # then the solver is the reference, and no setting to be judged by it
+	left = (*specimenKnobs, "half as slow", "slow") + ("solver", ) * exact
+	blocks = [row for row in rows if row.model == "blocks" and not row.isReference and row.knob not in left]
 	others = [row for row in rows if row.model != "blocks" and not row.isReference]
 	check = next((row for row in rows if row.model == "blocks" and row.knob == "half as slow"), None)
 	known = check.reference if check else {}
@@ -133,6 +135,9 @@ def reading(rows, names, limits=(0.05, 0.02, 0.01), most=10):
 			f"Errors are rms over {slow.reference[peak].seeds} seeds against each seed's own cascades from event to event; "
 			f"a slow run ({slow.label}) is off by: {moves}."
 		)
+	path = [row for row in rows if row.knob == "solver" and exact and row.seeds]
+	if path:
+		lines.append("From event to event, without time steps: " + "; ".join(f"{row.label} ({row.cpu:.2g} CPU s)" + _off(row, peak) for row in path) + ".")
 	said = [text for text in (_bestFor(blocks, name, known.get(name), limits) for name in names) if text]
 	lines += said[:1]
 	converged = [row for row in rows if row.model == "blocks" and row.isReference and row.laboratory.get(peak)]
@@ -175,6 +180,12 @@ def reading(rows, names, limits=(0.05, 0.02, 0.01), most=10):
 		if told:
 			warnings.append(f"{words}: " + "; ".join(f"{row.model} {row.label}" for row in told) + ".")
 	return lines[:max(0, most - len(warnings))] + warnings
+
+
+def _off(row, peak):
+	"""How far a way along the exact path is from the reference, in words; nothing where it is the same."""
+	rms = row.rms("reference", peak)
+	return "" if math.isnan(rms) or rms < 5e-5 else f", whose peak is off by {_percent(rms)}"
 
 
 def _bestFor(blocks, name, known, limits):
