@@ -150,7 +150,6 @@ def begin(model, steps, floor, record, wider, cracks, label):
 			unbalanced=path['residual']
 		)
 		cracks.began(path['crackPoint'])
-		print('from event to event up to %.3g N/mm2, then in time steps: %s' % (path['reached'][1] / area / 1e6, path['ended']))
 		record()
 	else:
 		O.run(1, True)

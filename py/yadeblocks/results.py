@@ -342,7 +342,7 @@ class Results:
 						("contacts", "contact points"), ("ns_per_zone", "ns/zone"), ("ns_per_contact", "ns/contact point"))
 			if result["cost"].get(key) is not None
 		]
-		return [f"no peak in seed {rising}: the stress did not fall by 5 % after its highest value; a longer stroke would show whether it does"
+		return [f"no peak in seed {rising}: the stress did not fall by 5 % after its highest value before it ended"
 			] * bool(rising) + ["quality: " + ", ".join(quality)] * bool(quality) + ["one run: " + ", ".join(cost)] * bool(cost) + [
 				f"see {self.folder}"
 			]
