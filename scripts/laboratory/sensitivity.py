@@ -9,7 +9,7 @@ at `points` points (Latin hypercube), `seeds` tessellations each. A polynomial c
 what a key governs alone; total, with all that it does together with others. They are shares of the variance that the keys cause; the seeds' share is that of
 one run's variance that tessellations cause. Q² is how much of the variance the polynomial predicts at points it was not fitted to (five parts in turn;
 the number of terms is the one with the best Q²); of indices with a Q² below 0.7 nothing should be read. Intervals: 5 % to 95 % of fits to points drawn with
-replacement.
+replacement. One key of the scenario may have several values (sigma=0.1e6,0.5e6,1e6): each quantity is taken at all of them, with its slope along the key.
 Results: study.json, table.md, points.csv, sensitivity.png.
 """
 import math
@@ -21,6 +21,7 @@ from yadeblocks import scenario
 
 from . import studypicture
 from .command import StudyError, bounds, demandResults, good, listed, place, quantitiesOf, reasons
+from .lines import along, measure
 
 keys = {"bounds": "", "points": 0, "seeds": 3, "screen": 2.0, "samplerSeed": 1, "bootstrap": 30}
 rules = {"points": scenario.notNegative, "screen": scenario.notNegative, "samplerSeed": scenario.notNegative, "bootstrap": scenario.notNegative}
@@ -36,15 +37,16 @@ def study(command):
 	middle = {key: 0.5 for key in edges}
 	ends = [middle] + [{**middle, key: end} for key in edges for end in (0.0, 1.0)]
 	at = lambda units: [{**command.settings, **place(edges, [unit[key] for key in edges])} for unit in units]
-	measured = command.measure(at(ends), seeds)
+	line = along(command.settings)
+	measured = measure(command, at(ends), seeds)
 	demandResults(measured)
-	units = quantitiesOf(measured, listed(p.quantities))
+	units = quantitiesOf(measured, () if line else listed(p.quantities))
 	screening = {name: screen(list(edges), measured, name) for name in units}
 	left = [key for key in edges if any(abs(screening[name][key]["effect"]) > p.screen / 100 for name in units if key in screening[name])]
 	if not left: raise StudyError(f"study: no key moves any quantity by more than {p.screen:g} %: screen= must be smaller or the bounds wider")
 	count = p.points or 15 * len(left)
 	cube = latin(count, len(left), p.samplerSeed)
-	varied = command.measure(at([{**middle, **dict(zip(left, row))} for row in cube]), seeds)
+	varied = measure(command, at([{**middle, **dict(zip(left, row))} for row in cube]), seeds)
 	demandResults(varied)
 	indices = {}
 	for name in units:

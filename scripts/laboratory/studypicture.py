@@ -45,7 +45,7 @@ def drawSensitivity(path, names, keys, screening, indices, title):
 	for number, name in enumerate(names):
 		upper, lower = (axes[2 * (number // wide) + below, number % wide] for below in range(2))
 		effects = [screening[name].get(key, {"effect": np.nan, "error": np.nan}) for key in keys]
-		upper.barh(range(len(keys)), [100 * e["effect"] for e in effects], xerr=[100 * e["error"] for e in effects], color="0.6")
+		upper.barh(range(len(keys)), [100 * e["effect"] for e in effects], xerr=_known(100 * e["error"] for e in effects), color="0.6")
 		upper.set_yticks(range(len(keys)), keys), upper.set_title(name, fontsize=9)
 		upper.set_xlabel("change over its bounds [%]", fontsize=8)
 		found = indices.get(name)
@@ -54,7 +54,7 @@ def drawSensitivity(path, names, keys, screening, indices, title):
 		for shift, kind, colour in ((-0.2, "first", "C0"), (0.2, "total", "C1")):
 			values = np.array([found[kind][key] for key in rows]) # value, low, high
 			lower.barh(
-				np.arange(len(rows)) + shift, values[:, 0], 0.4, color=colour, label=kind, xerr=abs(values[:, 1:].T - values[:, 0]),
+				np.arange(len(rows)) + shift, values[:, 0], 0.4, color=colour, label=kind, xerr=_known(abs(values[:, 1:].T - values[:, 0])),
 				ecolor="0.3"
 			)
 		lower.set_yticks(range(len(rows)), rows), lower.legend(fontsize=7)
@@ -77,6 +77,12 @@ def drawCalibration(path, profiles, targets, title):
 		if row["mean"] is not None: axis.errorbar([scale(row["mean"])], [number], xerr=[row["error"] / row["tolerance"]], fmt="ro", capsize=3)
 	axis.set_yticks(range(len(targets)), list(targets), fontsize=7), axis.set_xlabel("(held-out mean - target) / tolerance")
 	_save(figure, path, title)
+
+
+def _known(errors):
+	"""Error bars, none of which is drawn where none is known: of one seed, or without fits to points drawn again."""
+	errors = np.array(list(errors), float)
+	return errors if np.isfinite(errors).any() else None
 
 
 def _save(figure, path, title):

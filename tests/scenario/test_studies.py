@@ -193,6 +193,31 @@ def test_sensitivityLeavesOutWhatDoesNothing(studied):
 	assert (folder / "sensitivity.png").stat().st_size > 1000
 
 
+def test_sensitivityOfASlope(studied):
+	"""Along sigma a peak by Coulomb rises by tan(friction), whatever the cohesion, and at no pressure it is the cohesion."""
+	coulomb = lambda words: {"peak": words["cohesion"] + words["sigma"] * words["tangent"], "other": 1.0}
+	words = ["bounds=cohesion:0.5:1.5:lin,tangent:0.5:1.5:lin", "sigma=0,1,3", "points=16", "seeds=1", "bootstrap=0", "quantities=peak"]
+	found, runs, _ = studied(sensitivity, coulomb, *words)
+	assert len(runs) == (1 + 2 * 2 + 16) * 3 and list(found["indices"]) == ["peak at sigma=0", "peak at sigma=1", "peak at sigma=3", "peak along sigma"]
+	first = lambda quantity: {key: value[0] for key, value in found["indices"][quantity]["first"].items()}
+	assert first("peak along sigma") == {"cohesion": pytest.approx(0, abs=1e-9), "tangent": pytest.approx(1)}
+	assert first("peak at sigma=0") == {"cohesion": pytest.approx(1), "tangent": pytest.approx(0, abs=1e-9)}
+	assert first("peak at sigma=3")["tangent"] == pytest.approx(0.9) # 9 : 1
+	assert found["screening"]["peak along sigma"]["tangent"] == {
+		"effect": pytest.approx(1), "error": None, "low": pytest.approx(0.5), "high": pytest.approx(1.5)
+	}
+
+
+def test_aSlopeNeedsAllItsRuns(studied):
+	"""A seed of which one run failed is not taken for its other values; what fails says why."""
+	def brittle(words):
+		if words["seed"] == 2 and words["sigma"] == 1: raise ValueError("exit code 1: it broke")
+		return {"peak": words["cohesion"] * (1 + words["sigma"])}
+
+	found, runs, _ = studied(sensitivity, brittle, "bounds=cohesion:1:2", "sigma=0,1", "points=8", "seeds=2", "bootstrap=0")
+	assert found["failed"] == {"exit code 1: it broke": 8} and found["indices"]["peak along sigma"]["points"] == 8
+
+
 # ---- calibration
 
 
@@ -285,7 +310,8 @@ def test_filesThatAreNoJoints(tmp_path, text):
 				(ensemble, ["oops"], "key=value"), (ensemble, ["table=nowhere"], "cannot be read"),
 				(ensemble, ["refuse=1"], "every run failed: exit code 2: mine"), (sensitivity, [], "bounds= must be given"),
 				(sensitivity, ["bounds=a:2:1"], "lower one below"), (sensitivity, ["bounds=a:1"], "of the form"),
-				(sensitivity, ["bounds=idle:1:2"], "no key moves"), (calibrate, ["bounds=a:1:2"], "targets= must be given"),
+				(sensitivity, ["bounds=idle:1:2"], "no key moves"), (sensitivity, ["bounds=idle:1:2", "a=1,2", "b=1,2"], "got a and b"),
+				(sensitivity, ["bounds=idle:1:2", "a=low,high"], "values of a must be different numbers, got low,high"), (calibrate, ["bounds=a:1:2"], "targets= must be given"),
 				(calibrate, ["bounds=a:1:2", "targets=peak:1:0"], "tolerance > 0"),
 				(calibrate, ["bounds=a:1:2", "targets=peek:1:5%"], "no quantity peek"),
 				(calibrate, ["bounds=wall.a:1:2", "targets=peak:1:5%"], "wall, which is no scenario")]
