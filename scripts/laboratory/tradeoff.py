@@ -137,7 +137,8 @@ def reading(rows, names, limits=(0.05, 0.02, 0.01), most=10):
 		)
 	path = [row for row in rows if row.knob == "solver" and exact and row.seeds]
 	if path:
-		lines.append("From event to event, without time steps: " + "; ".join(f"{row.label} ({row.cpu:.2g} CPU s)" + _off(row, peak) for row in path) + ".")
+		told = "; ".join(f"{row.label} ({row.cpu:.2g} CPU s)" + _off(row, peak) for row in path)
+		lines.append(f"From event to event, without time steps: {told}.")
 	said = [text for text in (_bestFor(blocks, name, known.get(name), limits) for name in names) if text]
 	lines += said[:1]
 	converged = [row for row in rows if row.model == "blocks" and row.isReference and row.laboratory.get(peak)]

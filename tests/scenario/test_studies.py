@@ -311,8 +311,8 @@ def test_filesThatAreNoJoints(tmp_path, text):
 				(ensemble, ["refuse=1"], "every run failed: exit code 2: mine"), (sensitivity, [], "bounds= must be given"),
 				(sensitivity, ["bounds=a:2:1"], "lower one below"), (sensitivity, ["bounds=a:1"], "of the form"),
 				(sensitivity, ["bounds=idle:1:2"], "no key moves"), (sensitivity, ["bounds=idle:1:2", "a=1,2", "b=1,2"], "got a and b"),
-				(sensitivity, ["bounds=idle:1:2", "a=low,high"], "values of a must be different numbers, got low,high"), (calibrate, ["bounds=a:1:2"], "targets= must be given"),
-				(calibrate, ["bounds=a:1:2", "targets=peak:1:0"], "tolerance > 0"),
+				(sensitivity, ["bounds=idle:1:2", "a=low,high"], "values of a must be different numbers, got low,high"),
+				(calibrate, ["bounds=a:1:2"], "targets= must be given"), (calibrate, ["bounds=a:1:2", "targets=peak:1:0"], "tolerance > 0"),
 				(calibrate, ["bounds=a:1:2", "targets=peek:1:5%"], "no quantity peek"),
 				(calibrate, ["bounds=wall.a:1:2", "targets=peak:1:5%"], "wall, which is no scenario")]
 )
