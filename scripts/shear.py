@@ -48,12 +48,12 @@ brick, mortar = dict(poisson=0.2, density=1900), dict(poisson=0.2, density=3250)
 moduli = scenario.usualParameters(unitYoung=16.7e9, mortarYoung=2.974e9)
 residualFriction = degrees(atan(experiments.residualFriction))
 shared = dict(kn=400e9, ks=200e9, dilation=0.) # Table 5
-measured = {name: softening.measured[name] for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII', 'lastingShare')}
+measured = {name: softening.measured[name] for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII', 'GfIIPressure', 'lastingShare')}
 sets = { # all joints alike; angles in degrees
-	'paper': dict(shared, cohesion=3e6, tension=1.5e6, friction=45., residualFriction=36., GfI=0., GfII=0., lastingShare=0.), # Table 5
+	'paper': dict(shared, cohesion=3e6, tension=1.5e6, friction=45., residualFriction=36., GfI=0., GfII=0., GfIIPressure=0., lastingShare=0.), # Table 5
 	'measured': dict(measured, friction=degrees(softening.measured['frictionAngle']), residualFriction=residualFriction, dilation=0.),
 	'calibrated': dict(
-		shared, cohesion=1.3e6, tension=0.5e6, friction=50., residualFriction=residualFriction, GfI=20., GfII=150., lastingShare=1.
+		shared, cohesion=1.3e6, tension=0.5e6, friction=50., residualFriction=residualFriction, GfI=20., GfII=150., GfIIPressure=0., lastingShare=1.
 	),
 }
 brickJoint = dict(
@@ -79,7 +79,7 @@ softens = p.GfI > 0
 scenario.require(p.solver == 'steps' or not softens, 'shear: solver=events knows brittle joints only, got GfI=%g' % p.GfI)
 joint = dict(
 	kn=p.kn, ks=p.ks, frictionAngle=radians(p.friction), frictionAngleResidual=radians(p.residualFriction), dilationAngle=radians(p.dilation),
-	cohesion=p.cohesion, tension=p.tension, GfI=p.GfI, GfII=p.GfII, lastingShare=p.lastingShare
+	cohesion=p.cohesion, tension=p.tension, GfI=p.GfI, GfII=p.GfII, GfIIPressure=p.GfIIPressure, lastingShare=p.lastingShare
 )
 area, low, high = length * thickness, brickHeight, brickHeight + mortarHeight
 peakExpected, residualExpected = experiments.peakShearStress(p.sigma), experiments.residualShearStress(p.sigma)

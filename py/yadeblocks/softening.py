@@ -14,7 +14,7 @@ from . import experiments, scenario
 
 measured = dict(
 	kn=400e9, ks=200e9, tension=1e6 * experiments.tensileStrength[0], cohesion=1e6 * experiments.shearCohesion,
-	frictionAngle=atan(experiments.shearFriction), frictionAngleResidual=atan(experiments.residualFriction), GfI=12.0, GfII=60.0, lastingShare=1.0
+	frictionAngle=atan(experiments.shearFriction), frictionAngleResidual=atan(experiments.residualFriction), GfI=12.0, GfII=60.0, GfIIPressure=0.0, lastingShare=1.0
 )
 
 _positive = scenario.Rule(lambda v: v == -1 or 0 < v < math.inf, "must be positive (-1: that of the joints)")
@@ -37,13 +37,14 @@ _keys = {
 	"mortarFriction": ("friction angle of joints of the mortar", "degrees", _angle),
 	"GfI": ("fracture energy in tension", "N/m", _notNegative),
 	"GfII": ("fracture energy in shear", "N/m", _notNegative),
+	"GfIIPressure": ("what GfII rises by with pressure, N/m by Pa", "m", _notNegative),
 	"lastingShare": ("share of a softened joint's opening that stays when it closes", "", _share),
 }
 
 
 def jointKeys(*names):
 	"""Scenario keys for properties of the joints, which stand in place of those of the chosen set: `kn ks cohesion tension friction residualFriction
-	dilation strengths stiffnesses unitStrengths mortarStrengths unitFriction mortarFriction GfI GfII lastingShare`."""
+	dilation strengths stiffnesses unitStrengths mortarStrengths unitFriction mortarFriction GfI GfII GfIIPressure lastingShare`."""
 	return {name: scenario.Key(-1.0, _keys[name][0], *_keys[name][1:]) for name in names}
 
 

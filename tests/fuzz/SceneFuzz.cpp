@@ -144,7 +144,8 @@ void setInMotion(Dice& dice, Case& c, Real speed)
 	}
 }
 
-/// The same joints with fracture energies, up to a thousand times the least; a tenth of them stay brittle, lasting openings are between none and all.
+/// The same joints with fracture energies, up to a thousand times the least, half of them rising with pressure; a tenth stay brittle, lasting openings are
+/// between none and all.
 void soften(Dice& dice, Case& c)
 {
 	for (int i = 0; i < c.a.joints.count(); ++i) {
@@ -155,6 +156,7 @@ void soften(Dice& dice, Case& c)
 		const Real      least = 2 * std::max(p.tension * p.tension / p.kn, p.cohesion * p.cohesion / p.ks);
 		SofteningParams s;
 		s.energyI = least * dice.decades(0.01, 3), s.energyII = least * dice.decades(0.01, 3), s.lastingShare = dice(0, 1);
+		if (dice.chance(0.5)) s.energyIIPressure = s.energyII / p.cohesion * dice.decades(-2, 1);
 		c.a.setJoints(i, i + 1, p, status, s);
 	}
 }

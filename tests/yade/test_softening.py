@@ -87,7 +87,7 @@ def test_damage():
 
 @pytest.mark.parametrize(
 	'change, words', [(dict(GfI=0.2), ['snaps back', '350000', '400000000000', 'GfI 0.2', 'GfII 6', '(tension^2/(kn GfI))^2']),
-				(dict(GfI=0), ['GfI must be positive where GfII is', '0']), (dict(GfII=-1), ['GfII', 'negative', '-1']),
+				(dict(GfI=0), ['GfI must be positive where GfII is', '0']), (dict(GfII=-1), ['GfII', 'negative', '-1']), (dict(GfIIPressure=-1), ['GfIIPressure', 'negative', '-1']),
 				(dict(tensionResidual=0.4e6), ['tensionResidual must not exceed tension', '400000']),
 				(dict(frictionAngleResidual=0.9), ['frictionAngleResidual must not exceed frictionAngle', '1.26']),
 				(dict(cohesion=0.3e6), ['cohesion must not be below tension tan(frictionAngle)', '300000']),
@@ -115,10 +115,11 @@ def test_whoMayNot():
 def test_propertiesByJoint():
 	model = softScene('tension')
 	some = [0, 3]
-	model.setJoints(some, GfI=[3., 4.], lastingShare=1)
+	model.setJoints(some, GfI=[3., 4.], lastingShare=1, GfIIPressure=1e-4)
 	properties = model.jointProperties
 	assert (properties['GfI'][some] == [3, 4]).all() and (properties['lastingShare'][some] == 1).all()
 	assert (np.delete(properties['GfI'], some) == 0.75).all() and (properties['GfII'] == 6).all()
+	assert (properties['GfIIPressure'][some] == 1e-4).all() and (np.delete(properties['GfIIPressure'], some) == 0).all()
 	with pytest.raises(ValueError, match='snaps back'):
 		model.setJoints(tension=2e6, cohesion=4e6)
 	assert np.array_equal(model.jointProperties['GfI'], properties['GfI'])

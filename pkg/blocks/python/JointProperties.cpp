@@ -45,6 +45,7 @@ namespace {
 		                        { "dilationLimitSlip", &JointParams::dilationLimitSlip, false },
 		                        { "GfI", nullptr, false, &SofteningParams::energyI },
 		                        { "GfII", nullptr, false, &SofteningParams::energyII },
+		                        { "GfIIPressure", nullptr, false, &SofteningParams::energyIIPressure },
 		                        { "lastingShare", nullptr, false, &SofteningParams::lastingShare },
 		                        { "dilationDecay", nullptr, false, &SofteningParams::dilationDecay },
 		                        { "dilationPressure", nullptr, false, &SofteningParams::dilationPressure },
@@ -267,7 +268,8 @@ void defineJoints(PythonModel& c)
 		 &jointProperties,
 		 "Properties of all joints as a dictionary of columns, one entry a segment: kn, ks [Pa/m], cohesion, tension, cohesionResidual, "
 		 "tensionResidual [Pa], "
-		 "frictionAngle, frictionAngleResidual, dilationAngle [rad], dilationLimitSlip [m]; of joints that soften GfI, GfII [J/m2], lastingShare [-], "
+		 "frictionAngle, frictionAngleResidual, dilationAngle [rad], dilationLimitSlip [m]; of joints that soften GfI, GfII [J/m2], GfIIPressure [m], "
+	         "lastingShare [-], "
 		 "dilationDecay [1/m], dilationPressure [Pa] and those of the cap, as in :yref:`JointMat`. Copies; :yref:`setJoints<BlockModel.setJoints>` "
 		 "changes "
 		 "them.")

@@ -36,10 +36,11 @@ blocks::JointParams JointMat::params() const
 blocks::SofteningParams JointMat::softening() const
 {
 	blocks::SofteningParams s;
-	s.energyI       = GfI;
-	s.energyII      = GfII;
-	s.lastingShare  = lastingShare;
-	s.dilationDecay = dilationDecay;
+	s.energyI          = GfI;
+	s.energyII         = GfII;
+	s.energyIIPressure = GfIIPressure;
+	s.lastingShare     = lastingShare;
+	s.dilationDecay    = dilationDecay;
 	if (dilationPressure != -1) s.dilationPressure = dilationPressure;
 	s.cap = { capStrength, capFirst, capResidual, capPeakClosure, capEnergy, capShear, capLinear };
 	blocks::validate(params(), s);

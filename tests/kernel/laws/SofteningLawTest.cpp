@@ -196,6 +196,35 @@ TEST(SofteningLaw, ShearAtConstantStress)
 		}
 }
 
+// GfII + a p: what slip dissipates of the cohesion rises in proportion to the pressure, and the curve is as long as for that energy alone.
+TEST(SofteningLaw, FractureEnergyOfSlipRisesWithPressure)
+{
+	JointParams     p = mortar();
+	SofteningParams s = softening(), fixed = softening();
+	s.energyIIPressure = 0.13e-3;
+	for (Real pressure : { 0.0, 0.1e6, 0.5e6, 1e6 }) {
+		fixed.energyII = 60 + 0.13e-3 * pressure;
+		Driven rising = point(p, s), other = point(p, fixed);
+		for (Driven* d : { &rising, &other }) {
+			d->to(-pressure / p.kn, 0);
+			d->to(d->un, 4e-3, 40000);
+			EXPECT_EQ(d->snaps, 0);
+		}
+		EXPECT_NEAR(rising.sum.slip, fixed.energyII, fixed.energyII * tailArea + 0.5e-7 * (p.cohesion + pressure));
+		EXPECT_EQ(rising.sum.slip, other.sum.slip);
+		EXPECT_EQ(rising.sum.friction, other.sum.friction);
+	}
+	// open, or pressed only afterwards, nothing is added: softening done is done
+	Driven open = point(p, s), plain = point(p, softening());
+	for (Driven* d : { &open, &plain })
+		d->to(1e-6, 2e-5, 100);
+	EXPECT_GT(open.now.soft.k, 0.1);
+	EXPECT_EQ(open.now.soft.k, plain.now.soft.k);
+	const Real before = open.now.soft.k;
+	open.to(-1e6 / p.kn, open.us);
+	EXPECT_GE(open.now.soft.k, before);
+}
+
 // Pure paths give the same whatever the step. On mixed ones chords stand for arcs: halving the step changes less than 0.1 % of the peak.
 TEST(SofteningLaw, TheStepDoesNotMatter)
 {
@@ -285,6 +314,7 @@ TEST(SofteningLaw, CyclesNeverCreateEnergy)
 				SofteningParams s  = softening(lasting);
 				s.dilationDecay    = 1e4;
 				s.dilationPressure = 2e6;
+				s.energyIIPressure = 0.13e-3;
 				Driven     d       = point(p, s);
 				const Real step    = 2e-8;
 				for (int leg = 0; leg < 12; ++leg) {
@@ -399,6 +429,13 @@ TEST(SofteningLaw, SnapBackUnderHighPressure)
 		for (int i = 1; i <= 2000; ++i)
 			d.to(d.un, start + i * 1e-8);
 		EXPECT_EQ(d.snaps > 0, ratio > 1);
+		// where GfII rises with the pressure as fast as what the curve has to fall by, no pressure is too high
+		SofteningParams rising  = softening();
+		rising.energyIIPressure = 0.28 * 0.87e6 / 200e9;
+		Driven follows          = point(mortar(), rising);
+		follows.to(-pressure / follows.p.kn, 0);
+		follows.to(follows.un, start + 2e-5, 4000);
+		EXPECT_EQ(follows.snaps, 0);
 		EXPECT_GE(d.least, -1e-9 * d.work);
 		const Real f = (std::exp(-d.now.soft.k) - tail) / (1 - tail);
 		EXPECT_NEAR(d.now.tau, 0.87e6 * f + pressure * (0.73 + 0.28 * f), 1e-9 * peak);
@@ -595,6 +632,8 @@ TEST(SofteningLaw, RefusesImpossibleParameters)
 		     { [](auto&, auto&s) { s.energyII = std::nan(""); }, { "GfII", "not be negative", "nan" } },
 		     { [](auto&, auto&s) { s.energyI = 0; }, { "GfI", "must be positive where GfII is" } },
 		     { [](auto&, auto&s) { s.energyII = 0; }, { "GfII", "must be positive where GfI is" } },
+		     { [](auto&, auto&s) { s.energyIIPressure = -1e-4; }, { "GfIIPressure", "not be negative", "-0.0001" } },
+		     { [](auto&, auto&s) { s = {}, s.energyIIPressure = 1e-4; }, { "GfIIPressure", "needs softening", "0.0001" } },
 		     { [](auto&, auto&s) { s.lastingShare = 1.5; }, { "lastingShare", "[0, 1]", "1.5" } },
 		     { [](auto&, auto&s) { s.dilationDecay = -2; }, { "dilationDecay", "not be negative", "-2" } },
 		     { [](auto&, auto&s) { s.dilationPressure = 0; }, { "dilationPressure", "positive" } },

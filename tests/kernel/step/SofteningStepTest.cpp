@@ -34,8 +34,15 @@ SofteningParams capped()
 	return s;
 }
 
+SofteningParams rising()
+{
+	SofteningParams s  = energies(0.3);
+	s.energyIIPressure = 1e-3; // at some MPa as much as without pressure
+	return s;
+}
+
 /// A softening joint, a brittle one and one with a cap.
-const std::array<SofteningParams, 3> softenings { energies(0.3), SofteningParams(), capped() };
+const std::array<SofteningParams, 3> softenings { rising(), SofteningParams(), capped() };
 
 /// Blocks of which joints soften, or do not, displaced at random; twice, so that some have a history.
 BlockAssembly randomState(Real amount, int kinds, unsigned seed)

@@ -106,7 +106,7 @@ namespace {
 			}
 			a.limit        = std::max(Real(0), now.cohesion - a.sigma * now.tanPhi);
 			const Real l2  = std::max(Real(0), trial - a.limit) / p.ks;
-			const Real dk1 = p.tension * l1 / s.energyI, dk2 = p.cohesion * l2 / s.energyII;
+			const Real dk1 = p.tension * l1 / s.energyI, dk2 = p.cohesion * l2 / s.energyOfSlip(a.sigma);
 			a.more = l1 == 0 ? dk2 : l2 == 0 ? dk1 : std::sqrt(dk1 * dk1 + dk2 * dk2);
 			return a;
 		}
@@ -166,7 +166,7 @@ SofteningStep soften(const JointParams& p, const SofteningParams& s, const Joint
 	if (old < softeningEnd) {
 		if (closed) {
 			const Real steepest = (p.cohesion - p.cohesionResidual - sigma * (p.tanPhi - p.tanPhiResidual)) * (a.f + epsilon / (1 - epsilon));
-			now.snappedBack     = p.cohesion * steepest > p.ks * s.energyII;
+			now.snappedBack     = p.cohesion * steepest > p.ks * s.energyOfSlip(sigma);
 		}
 		now.soft.k = softeningAtEnd(point, old, a.more);
 		a          = point.at(now.soft.k);
@@ -190,7 +190,7 @@ SofteningStep soften(const JointParams& p, const SofteningParams& s, const Joint
 	}
 
 	if (!dry && now.soft.k > 0) {
-		const bool byOpening = p.tension * now.soft.opening / s.energyI >= p.cohesion * now.soft.slipLargest / s.energyII;
+		const bool byOpening = p.tension * now.soft.opening / s.energyI >= p.cohesion * now.soft.slipLargest / s.energyOfSlip(now.sigma);
 		if (joint.status == Joint::intact || joint.status == Joint::softening)
 			now.joint.status = 1 - a.f < crackedFrom ? Joint::softening : byOpening ? Joint::brokenInTension : Joint::brokenInShear;
 	}
@@ -205,6 +205,7 @@ void validate(const JointParams& p, const SofteningParams& s)
 	};
 	notNegative(s.energyI, "GfI", "[J/m2]");
 	notNegative(s.energyII, "GfII", "[J/m2]");
+	notNegative(s.energyIIPressure, "GfIIPressure", "[m]");
 	require(s.energyI > 0 || s.energyII == 0, named("GfI must be positive where GfII is (both 0: brittle) [J/m2]"), s.energyI);
 	require(s.energyII > 0 || s.energyI == 0, named("GfII must be positive where GfI is (both 0: brittle) [J/m2]"), s.energyII);
 	require(s.lastingShare >= 0 && s.lastingShare <= 1, named("lastingShare must lie in [0, 1]"), s.lastingShare);
@@ -214,8 +215,10 @@ void validate(const JointParams& p, const SofteningParams& s)
 	for (Real v : { c.strength, c.first, c.residual, c.peakClosure, c.energy, c.shear, c.linear })
 		notNegative(v, "of the cap", "");
 	if (!s.softens()) {
-		for (const auto& [value, name] :
-		     { std::pair(s.lastingShare, "lastingShare"), { s.dilationDecay, "dilationDecay" }, { c.strength, "capStrength" } })
+		for (const auto& [value, name] : { std::pair(s.energyIIPressure, "GfIIPressure"),
+		                                   { s.lastingShare, "lastingShare" },
+		                                   { s.dilationDecay, "dilationDecay" },
+		                                   { c.strength, "capStrength" } })
 			require(value == 0, named(name) + " needs softening: GfI and GfII must be positive with it", value);
 		require(s.dilationPressure == SofteningParams().dilationPressure,
 		        named("dilationPressure needs softening: GfI and GfII must be positive with it"),

@@ -8,8 +8,9 @@
 ///   f = (e^-k - epsilon)/(1 - epsilon),  epsilon = 1e-5, and 0 from k = 11.5 on: an exponential that ends,
 ///   ft = ft_res + (ft0 - ft_res) f,   c = c_res + (c0 - c_res) f,   tan(phi) = tan(phi_res) + (tan(phi0) - tan(phi_res)) f.
 /// With l1, l2 >= 0 the inelastic opening and slip of a step,
-///   dk = sqrt((ft0 l1/GfI)^2 + (c0 l2/GfII)^2),
-/// so pure opening dissipates GfI, and pure slip of the cohesion GfII, both to 1.2e-4 (epsilon ln epsilon). k is solved for at the end of the step.
+///   dk = sqrt((ft0 l1/GfI)^2 + (c0 l2/(GfII + a p))^2),
+/// so pure opening dissipates GfI, and pure slip under a constant pressure p of the cohesion GfII + a p, both to 1.2e-4 (epsilon ln epsilon).
+/// k is solved for at the end of the step.
 ///
 ///       sigma                           w: inelastic opening, the largest so far; a w of it lasts (a: lasting share)
 ///     ft0 |  /\                         loading: sigma = ft(k) = kn (un - base - w)
@@ -50,17 +51,19 @@ inline bool beyondCap(const CapParams& c, Real sigma, Real tau)
 /// What softening adds to a joint's properties. Without it (both energies 0) a joint is brittle.
 struct SofteningParams {
 	Real      energyI          = 0;                                ///< fracture energy of opening GfI [J/m2]
-	Real      energyII         = 0;                                ///< fracture energy of slip GfII [J/m2]
+	Real      energyII         = 0;                                ///< fracture energy of slip GfII without pressure [J/m2]
+	Real      energyIIPressure = 0;                                ///< a: what GfII rises by with pressure [J/m2 by Pa = m]
 	Real      lastingShare     = 0;                                ///< of the inelastic opening: 0 closes at the origin, 1 where it was unloaded [-]
 	Real      dilationDecay    = 0;                                ///< delta: dilatancy falls as e^(-delta slip) [1/m]
 	Real      dilationPressure = std::numeric_limits<Real>::max(); ///< sigma_u: pressure at which dilatancy is 0 [Pa]
 	CapParams cap;
 
 	bool softens() const { return energyI > 0; }
+	Real energyOfSlip(Real sigma) const { return energyII + energyIIPressure * std::max(Real(0), -sigma); } ///< under this normal stress [J/m2]
 	bool operator==(const SofteningParams& o) const
 	{
-		return energyI == o.energyI && energyII == o.energyII && lastingShare == o.lastingShare && dilationDecay == o.dilationDecay
-			&& dilationPressure == o.dilationPressure && cap == o.cap;
+		return energyI == o.energyI && energyII == o.energyII && energyIIPressure == o.energyIIPressure && lastingShare == o.lastingShare
+			&& dilationDecay == o.dilationDecay && dilationPressure == o.dilationPressure && cap == o.cap;
 	}
 };
 

@@ -48,7 +48,7 @@ template <class T, class Visit, Only<T, CapParams> = 0> void forEachField(T& x, 
 
 template <class T, class Visit, Only<T, SofteningParams> = 0> void forEachField(T& x, Visit&& visit)
 {
-	visit("energyI", x.energyI), visit("energyII", x.energyII), visit("lastingShare", x.lastingShare);
+	visit("energyI", x.energyI), visit("energyII", x.energyII), visit("energyIIPressure", x.energyIIPressure), visit("lastingShare", x.lastingShare);
 	visit("dilationDecay", x.dilationDecay), visit("dilationPressure", x.dilationPressure), visit("cap", x.cap);
 }
 
