@@ -13,8 +13,9 @@ from math import atan
 from . import experiments, scenario
 
 measured = dict(
-	kn=400e9, ks=200e9, tension=1e6 * experiments.tensileStrength[0], cohesion=1e6 * experiments.shearCohesion,
-	frictionAngle=atan(experiments.shearFriction), frictionAngleResidual=atan(experiments.residualFriction), GfI=12.0, GfII=60.0, GfIIPressure=0.0, lastingShare=1.0
+	kn=400e9, ks=200e9, tension=1e6 * experiments.tensileStrength[0], cohesion=1e6 * experiments.shearCohesion, frictionAngle=atan(
+		experiments.shearFriction
+	), frictionAngleResidual=atan(experiments.residualFriction), GfI=12.0, GfII=60.0, GfIIPressure=0.0, lastingShare=1.0
 )
 
 _positive = scenario.Rule(lambda v: v == -1 or 0 < v < math.inf, "must be positive (-1: that of the joints)")

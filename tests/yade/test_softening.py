@@ -87,7 +87,8 @@ def test_damage():
 
 @pytest.mark.parametrize(
 	'change, words', [(dict(GfI=0.2), ['snaps back', '350000', '400000000000', 'GfI 0.2', 'GfII 6', '(tension^2/(kn GfI))^2']),
-				(dict(GfI=0), ['GfI must be positive where GfII is', '0']), (dict(GfII=-1), ['GfII', 'negative', '-1']), (dict(GfIIPressure=-1), ['GfIIPressure', 'negative', '-1']),
+				(dict(GfI=0), ['GfI must be positive where GfII is', '0']), (dict(GfII=-1), ['GfII', 'negative', '-1']),
+				(dict(GfIIPressure=-1), ['GfIIPressure', 'negative', '-1']),
 				(dict(tensionResidual=0.4e6), ['tensionResidual must not exceed tension', '400000']),
 				(dict(frictionAngleResidual=0.9), ['frictionAngleResidual must not exceed frictionAngle', '1.26']),
 				(dict(cohesion=0.3e6), ['cohesion must not be below tension tan(frictionAngle)', '300000']),

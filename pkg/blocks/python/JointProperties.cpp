@@ -269,7 +269,7 @@ void defineJoints(PythonModel& c)
 		 "Properties of all joints as a dictionary of columns, one entry a segment: kn, ks [Pa/m], cohesion, tension, cohesionResidual, "
 		 "tensionResidual [Pa], "
 		 "frictionAngle, frictionAngleResidual, dilationAngle [rad], dilationLimitSlip [m]; of joints that soften GfI, GfII [J/m2], GfIIPressure [m], "
-	         "lastingShare [-], "
+		 "lastingShare [-], "
 		 "dilationDecay [1/m], dilationPressure [Pa] and those of the cap, as in :yref:`JointMat`. Copies; :yref:`setJoints<BlockModel.setJoints>` "
 		 "changes "
 		 "them.")
