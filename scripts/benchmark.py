@@ -443,8 +443,8 @@ def codeOf(model):
 
 
 def staleCalibrations(experiment):
-	"""A line for each model whose calibration was made with other code, targets, packings or ties than today's."""
-	known = json.loads((house / "scripts" / "calibrated.json").read_text())
+	"""A line for the models whose calibrations were made with other code, targets, packings or ties than today's."""
+	known, stale = json.loads((house / "scripts" / "calibrated.json").read_text()), {}
 	for model in modelsOf[experiment]:
 		entry = known.get(f"{model} {experiment}")
 		if not entry or p.model not in ("all", model): continue
@@ -455,9 +455,9 @@ def staleCalibrations(experiment):
 				"parameters": fit.parameters(entry["moved"]) if "moved" in entry else None
 			}
 		)
-		if reasons:
-			again = f"mode=calibrate experiment={experiment} model={model} does it again"
-			yield f"Stale: {model} was calibrated with other {', '.join(reasons)}; {again}."
+		if reasons: stale.setdefault(", ".join(reasons), []).append(model)
+	for reasons, models in stale.items():
+		yield f"Calibrated with other {reasons}: {', '.join(models)}; mode=calibrate experiment={experiment} does it again."
 
 
 def calibrateAll(jobs):

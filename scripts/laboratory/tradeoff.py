@@ -114,7 +114,7 @@ def cheapest(rows, limit, error):
 def reading(rows, names, limits=(0.05, 0.02, 0.01), most=10):
 	"""What the plot of one case shows, in at most so many lines; what failed is always among them. names: the quantities, the peak first."""
 	peak, lines = names[0], []
-	exact = any(row.knob == "slow" for row in rows) # then the solver is the reference, and no setting to be judged by it
+	exact = any(row.isReference and row.label.startswith("events") for row in rows) # no setting is to be judged by itself
 	left = (*specimenKnobs, "half as slow", "slow") + ("solver", ) * exact
 	blocks = [row for row in rows if row.model == "blocks" and not row.isReference and row.knob not in left]
 	others = [row for row in rows if row.model != "blocks" and not row.isReference]
@@ -203,12 +203,12 @@ def _bestFor(blocks, name, known, limits):
 		if unknown > limit: told.append(f"{_percent(limit)}: cannot be judged, the reference is known to {_percent(unknown)} only")
 		elif row: told.append(f"{_percent(limit)}: {row.label} ({row.cpu:.2g} CPU s, {_percent(row.rms('reference', name))})")
 		else:
-			row = min(compared, key=error)
+			best = min(compared, key=error)
 			told.append(
-				f"{_percent(limit)}: none of the settings tried, the best is {row.label} "
-				f"({row.cpu:.2g} CPU s, {_percent(row.rms('reference', name))})"
+				f"{_percent(limit)}: none of the settings tried, the best is {best.label} "
+				f"({best.cpu:.2g} CPU s, {_percent(best.rms('reference', name))})"
 			)
-		if unknown > limit: break
+		if unknown > limit or not row: break
 	return f"For the {shortNames[name]} within " + "; ".join(told) + "."
 
 
