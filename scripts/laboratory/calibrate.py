@@ -97,12 +97,11 @@ def readTargets(text, command):
 		found = {}
 		for label, entry in entries.items():
 			script = entry.get("scenario", command.script)
-			command.path(script)
 			own = withJoints({
 				key: str(value).lower() if isinstance(value, bool) else str(value) for key, value in entry.get("settings", {}).items()
 			}, script)
 			found[label] = Experiment(
-				script, {**command.settings, **own},
+				script, command.quiet(script, {**command.settings, **own}),
 				{name: Target(target["value"], target["tolerance"], target.get("weight", 1.0)) for name, target in entry["targets"].items()}
 			)
 		if not found: raise ValueError

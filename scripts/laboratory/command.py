@@ -30,7 +30,7 @@ class StudyError(RuntimeError):
 class Command:
 	"""scripts/study.sh KIND NAME key=value ...: the study's own keys as `p`, those of the scenario as `settings`.
 
-	NAME is a scenario in scripts/, or the path of one's own."""
+	NAME is a scenario in scripts/, or the path of one's own; where a file of targets says the scenario of each experiment, any name."""
 	def __init__(self, house, kind, name, words, keys, rules, stream=None, engine=None):
 		self.house, self.kind, self.script = Path(house), kind, name
 		own, theirs = {**commonKeys, **keys}, []
@@ -44,8 +44,7 @@ class Command:
 		except scenario.ParameterError as error:
 			raise StudyError(str(error)) from None
 		self.settings = withJoints({word.partition("=")[0]: word.partition("=")[2] for word in theirs}, self.stem)
-		path = self.path(name)
-		if re.search(r"\bvtk\b", path.read_text()): self.settings.setdefault("vtk", False)
+		if not str(getattr(self.p, "targets", "")).endswith(".json") or self.hasScript(name): self.settings = self.quiet(name, self.settings)
 		self.folder = Path(self.p.out) if self.p.out else self.house / "out" / f"study-{kind}-{self.stem}"
 		plugin = os.environ.get("YADEBLOCKS_PLUGIN", self.house / "build" / "libyadeblocks.so")
 		try:
@@ -61,11 +60,20 @@ class Command:
 	def stem(self):
 		return Path(self.script).stem
 
+	def hasScript(self, name):
+		return self._place(name).is_file()
+
+	def _place(self, name):
+		return Path(name) if name.endswith(".py") else self.house / "scripts" / f"{name}.py"
+
 	def path(self, name):
 		"""The script of a scenario, which must be there."""
-		path = Path(name) if name.endswith(".py") else self.house / "scripts" / f"{name}.py"
-		if not path.is_file(): raise StudyError(f"study: there is no scenario {name}")
-		return path
+		if not self.hasScript(name): raise StudyError(f"study: there is no scenario {name}")
+		return self._place(name)
+
+	def quiet(self, name, settings):
+		"""The settings of a scenario, without ParaView files unless they are asked for."""
+		return {"vtk": False, **settings} if re.search(r"\bvtk\b", self.path(name).read_text()) else settings
 
 	def measure(self, points, seeds, script=None):
 		"""Runs the points (settings) over the seeds, what is not there yet; for each point its records by seed."""

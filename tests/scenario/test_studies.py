@@ -276,6 +276,20 @@ def test_severalExperimentsAtOnce(studied, tmp_path):
 	assert set(joints["parameters"]) == {"cohesion"} and set(joints["scenarios"]["mine"]) == {"friction"} and "other" not in joints["scenarios"]
 
 
+def test_aStudyOfSeveralExperimentsHasANameOfItsOwn(studied, tmp_path):
+	"""Where every experiment says its scenario, the study need not be one; where one does not, the name is taken for it."""
+	(tmp_path / "scripts/other.py").write_text("scenario.parameters({'vtk': True})")
+	experiment = {"targets": {"peak": {"value": 1.2, "tolerance": 0.05}}}
+	(tmp_path / "t.json").write_text(json.dumps({"a": {"scenario": "mine", **experiment}, "b": {"scenario": "other", **experiment}}))
+	words = ["bounds=cohesion:0.3e6:3e6", "friction=30", "trials=4", "jobs=2", f"targets={tmp_path / 't.json'}"]
+	found, runs, folder = studied(calibrate, couplet, *words, name="joint")
+	assert folder.name == "study-calibrate-joint" and set(found["targets"]) == {"a.peak", "b.peak"}
+	assert {run.get("vtk") for run in runs} == {None, False} # ParaView files are written by nobody
+	(tmp_path / "t.json").write_text(json.dumps({"a": {"scenario": "mine", **experiment}, "b": experiment}))
+	with pytest.raises(command.StudyError, match="there is no scenario joint"):
+		studied(calibrate, couplet, *words, name="joint")
+
+
 @pytest.mark.parametrize("low, high, said", [(0.96, 1.04, "reached"), (1.06, 1.2, "missed"), (0.9, 1.01, "undecided")])
 def test_verdicts(low, high, said):
 	found = statistics.Summary(5, (low + high) / 2, 0.1, low, high, 0, 0, 0)
