@@ -49,7 +49,7 @@ source = 'Raijmakers and Vermeltfoort 1992, as digitised; +- 8; another reading 
 
 p = scenario.parameters({
 	**scenario.usualParameters(
-		threads=1, tag='', seed=1, seeds=1, alpha=0.4, stroke=4e-3, steps=80000, sigma=0.3e6, vtk=True, frames=10, movie='none', sheets=True
+		threads=1, tag='', seed=1, seeds=1, checkpoint=0., resume=False, alpha=0.4, stroke=4e-3, steps=80000, sigma=0.3e6, vtk=True, frames=10, movie='none', sheets=True
 	), 'detail': Key('interface', 'mortar joints without thickness, or mortar of Voronoi blocks',
 				rule=('interface', 'mortar')), 'crack': Key(True, 'possible cracks in the middle of the bricks'),
 	'crackStiffness': Key(1e13, 'stiffness of these', 'Pa/m', scenario.positive), 'cap': Key(True, 'joints can be crushed, with detail=interface'),
@@ -70,7 +70,7 @@ def mortarModulus():
 
 
 def build(seed):
-	"""The wall at rest under its precompression; its joints by name."""
+	"""The wall at rest under its precompression. Its joints have names: bed, head and unit, or unit alone with mortar in detail."""
 	O.reset()
 	O.materials.append(BlockMat(label='unit', **brick))
 	model = BlockModel(thickness=thickness, planeStress=True)
@@ -78,14 +78,14 @@ def build(seed):
 	if p.detail == 'interface':
 		placed = wall.addTo(model, 'unit', zoneSize=p.zone)
 		crushed = {name: cap for name in ('bed', 'head') if p.cap}
-		joints = placed.bond(model, [JointMat(material1='unit', material2='unit', **joint)], **crushed)
-		if p.crack: model.setJoints(joints['unit'], kn=p.crackStiffness, ks=p.crackStiffness, **brickCrack)
+		placed.bond(model, [JointMat(material1='unit', material2='unit', **joint)], **crushed)
+		if p.crack: model.setJoints('unit', kn=p.crackStiffness, ks=p.crackStiffness, **brickCrack)
 	else:
 		O.materials.append(BlockMat(label='mortar', young=mortarModulus(), poisson=0.2, density=1800))
 		placed = Mortared(wall, gap).addTo(model, 'unit', 'mortar', p.zone, p.size, lloyd=p.lloyd, seed=seed, mergeFraction=p.merge)
 		cracks = JointMat(material1='unit', material2='unit', kn=p.crackStiffness, ks=p.crackStiffness, **brickCrack)
 		model.bond([JointMat(material1=a, material2='mortar', **mortarJoint) for a in ('unit', 'mortar')] + [cracks] * p.crack)
-		joints = {name: some for name, some in placed.joints(model).items() if name == 'unit'} # others go by their pair of materials
+		if p.crack: model.nameJoints('unit', placed.joints(model)['unit']) # others go by their pair of materials
 	clamped, top = (endCourse(model, placed, course) for course in (0, courses - 1))
 	model.drive('base', clamped, 'xy')
 	model.push('press', top, 'y', force=-load, rampTime=pressSteps * dt)
@@ -98,7 +98,7 @@ def build(seed):
 		model.release('press')
 		model.velocity[top] = 0
 		model.drive('press', top, 'y')
-	return model, joints
+	return model
 
 
 def endCourse(model, placed, course):
@@ -121,16 +121,15 @@ def nearDiagonal(model):
 
 
 def shear(stage, seed):
-	"""The model; the recorder of displacement [m], shear and normal force [N] and cracked contact points; the film; names of joints."""
-	model, joints = build(seed)
-	cracks, film, stop = Cracks(model, joints), Film(model, p.frames if p.vtk or p.movie != 'none' else 0), loading.Stop(displacement=p.stroke)
+	"""The model; the recorder of displacement [m], forces at the top and the base and normal force [N] and cracked contact points; the film."""
+	model = stage.model or build(seed)
+	cracks, film, stop = Cracks(model), Film(model, p.frames if p.vtk or p.movie != 'none' else 0), loading.Stop(displacement=p.stroke)
 	record = Recorder(
-		displacement=lambda: model.groupTravelled('side'), force=lambda: model.groupForce('side'), normal=lambda: -model.groupForce('press'),
-		broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=1e-2 * load), kinetic=model.kineticEnergy
+		displacement=lambda: model.groupTravelled('side'), force=lambda: model.groupForce('side'), base=lambda: -model.groupForce('base', axis='x'),
+		normal=lambda: -model.groupForce('press'), broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=1e-2 * load), kinetic=model.kineticEnergy
 	)
 	pace = Pace(model, lambda: model.groupForce('side'), lambda: model.groupForce('base', axis='x'), stage.label)
-	speed = p.stroke / (p.steps * dt)
-	model.setTarget('side', speed, rampTime=0.1 * p.steps * dt)
+	if not stage.model: model.setTarget('side', p.stroke / (p.steps * dt), rampTime=0.1 * p.steps * dt)
 	with Progress(
 		p.steps, lambda: loadingLine(record.last.displacement, record.last.force / (width * thickness), model, pace), label=stage.label
 	) as progress:
@@ -138,34 +137,36 @@ def shear(stage, seed):
 		record.after(lambda row: progress(int(p.steps * row.displacement / p.stroke)))
 		record.after(lambda row: pace((model.pointDamage > 0.1).any()))
 		record.after(lambda row: stop(row.displacement, row.force, row.broken))
-		O.engines += [record.engine(max(1, p.steps // 800))]
+		stage.keep(record=record, cracks=cracks, stop=stop)
+		if not stage.model: O.engines += [record.engine(max(1, p.steps // 800))]
 		stage.run()
-	return model, record, cracks, film, joints
+	return model, record, cracks, film
 
 
 # ---- running
 
 with Session(p) as session:
-	for seed in p.seedList:
+	for seed in filter(session.wants, p.seedList):
 		with session.run(seed) as run:
 			with run.stepping():
-				model, record, cracks, film, joints = shear(session.stage('seed %d' % seed), seed)
+				model, record, cracks, film = shear(session.stage('seed %d' % seed), seed)
 			force, displacement = record['force'], record['displacement']
 			strength, peak = curves.peak(displacement, force)
 			run.add('peak_shear_force', 'kN', strength / 1e3, 57., source)
+			run.add('base_by_top_at_peak', '1', record['base'][peak] / force[peak], 1.0, 'equilibrium: inertia and damping take the rest')
 			run.add('displacement_at_peak', 'mm', 1e3 * displacement[peak], 1.0, 'the digitised curve')
 			at = lambda x: np.interp(x, 1e3 * displacement, force) / 1e3
 			for x in (0.2, 2.0, 3.0):
 				if 1e3 * p.stroke >= x: run.add('force_at_%g_mm' % x, 'kN', at(x), float(np.interp(x, *measured)), 'the digitised curve')
 			run.curve(
-				displacement_mm=1e3 * displacement, force_kN=force / 1e3, normal_kN=record['normal'] / 1e3, broken=record['broken'],
+				displacement_mm=1e3 * displacement, force_kN=force / 1e3, base_kN=record['base'] / 1e3, normal_kN=record['normal'] / 1e3, broken=record['broken'],
 				kinetic_J=record['kinetic']
 			)
 			run.add('damage_near_the_diagonal', '1', nearDiagonal(model))
-			run.model(model, steps=O.iter, names=joints)
+			run.model(model, steps=O.iter)
 			run.quality(unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max())
 		if seed == p.seed:
-			session.picture('cracks.png', pictures.drawCracks, model, title='Shear wall J4D', names=joints)
+			session.picture('cracks.png', pictures.drawCracks, model, title='Shear wall J4D')
 			if p.sheets: pictures.drawSheets(session, film, model, 'Shear wall J4D')
 			pictures.drawFilm(session, film, model, 'Shear wall J4D')
 			if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))

@@ -3,17 +3,15 @@
 place of Boost's list of C++ signatures. Attributes that do not exist are refused, which Boost would add in silence.
 
 Nothing is looked at unless a call has failed already: calls that are right cost nothing but one function of Python's. `door` does the same for functions
-in Python, which would fail somewhere within; it looks at every call, and so is for doors alone."""
+in Python, which would fail somewhere within; it looks at every call, and so is for doors alone. Kinds of arguments stand in _kinds."""
 import difflib
 import functools
 import inspect
 import re
 
+from ._kinds import fits, wordsOf, wrong
+
 _ours = re.compile(r"(Block\w*|JointMat|JointPhys|NumpyLaw|(Ig2|Ip2|Law2|Bo1)_Block\w*)$")
-_words = {
-	"float": "a number", "int": "a whole number", "str": "a text", "bool": "True or False", "tuple": "a tuple", "list": "a list", "dict": "a dictionary",
-	"Vector2": "a vector (x, y)", "Vector3": "a vector (x, y, z)"
-}
 
 
 def install(wrapper):
@@ -27,14 +25,18 @@ def install(wrapper):
 		kind.__setattr__, kind.__getattr__ = _set, _absent
 
 
-def door(*numbers):
-	"""For public functions and __init__: unknown keywords, what is left out or given twice, and arguments that must be numbers (by name; None where that is
-	the default) and are none: TypeError with a sentence, before anything is done."""
+def door(*numbers, **kinds):
+	"""For public functions and __init__: unknown keywords, what is left out or given twice, and arguments of a wrong kind (None is right where that is the
+	default): a sentence, before anything is done. numbers: names of arguments that are finite numbers; kinds: kinds of others by name, see _kinds. What
+	is known is the function's `door`: name, kind and default of each argument.
+
+	TypeError; ValueError for numbers that are not finite, or not whole, where they must be."""
 	def wrap(function):
 		name = function.__qualname__.removesuffix(".__init__")
 		own = [p for p in inspect.signature(function).parameters.values() if p.name != "self"]
-		parameters = [(p.name, "float" if p.name in numbers else "", p.default) for p in own if p.kind == p.POSITIONAL_OR_KEYWORD]
-		missing = set(numbers) - {word for word, _, _ in parameters}
+		of = {**dict.fromkeys(numbers, "finite"), **kinds}
+		parameters = [(p.name, of.get(p.name, ""), p.default) for p in own if p.kind == p.POSITIONAL_OR_KEYWORD]
+		missing = set(of) - {word for word, _, _ in parameters}
 		if missing: raise ValueError(f"{name} has no arguments {missing}")
 		others = any(p.kind == p.VAR_KEYWORD for p in own)
 		method = len(own) < len(inspect.signature(function).parameters)
@@ -43,9 +45,10 @@ def door(*numbers):
 		def call(*given, **named):
 			known = {word: value for word, value in named.items() if not others or word in {word for word, _, _ in parameters}}
 			said = _said(name, parameters, given[method:], known)
-			if said: raise TypeError(said)
+			if said: raise said
 			return function(*given, **named)
 
+		call.door = parameters
 		return call
 
 	return wrap
@@ -66,7 +69,7 @@ def _explained(kind, name, method):
 				return method(self, *map(_plain, given), **{word: _plain(value) for word, value in named.items()})
 			except TypeError as error:
 				if type(error).__name__ != "ArgumentError": raise
-		raise TypeError(said or f"{kind.__name__}.{name} was called with what it does not take; it is {kind.__name__}.{name}{_signature(parameters)}")
+		raise said or TypeError(f"{kind.__name__}.{name} was called with what it does not take; it is {kind.__name__}.{name}{_signature(parameters)}")
 
 	del call.__wrapped__ # inspect would ask Boost, which has no answer
 	call.__name__, call.__qualname__ = name, f"{kind.__name__}.{name}"
@@ -97,36 +100,21 @@ def _signature(parameters):
 
 
 def _said(name, parameters, given, named):
-	"""What is wrong with a call, or None."""
+	"""The error to raise for what is wrong with a call, or None."""
 	if parameters is None: return None
 	words = [word for word, _, _ in parameters]
-	if len(given) > len(words): return f"{name} takes {len(words)} arguments at most, got {len(given)}: {name}{_signature(parameters)}"
+	if len(given) > len(words): return TypeError(f"{name} takes {len(words)} arguments at most, got {len(given)}: {name}{_signature(parameters)}")
 	for word in named:
-		if word not in words: return f"{name} has no argument {word}{_closest(word, words)}; known: {' '.join(words) or 'none'}"
-		if word in words[:len(given)]: return f"{name}.{word} must be given once, got {given[words.index(word)]!r} and {named[word]!r}"
+		if word not in words: return TypeError(f"{name} has no argument {word}{_closest(word, words)}; known: {' '.join(words) or 'none'}")
+		if word in words[:len(given)]: return TypeError(f"{name}.{word} must be given once, got {given[words.index(word)]!r} and {named[word]!r}")
 	values = {**dict(zip(words, given)), **named}
 	missing = [word for word, _, default in parameters if default is inspect.Parameter.empty and word not in values]
-	if missing: return f"{name} needs {' and '.join(missing)}: {name}{_signature(parameters)}"
-	wrong = [(word, kind) for word, kind, default in parameters
-			if word in values and not _fits(values[word], kind) and not (values[word] is None and default is None)]
-	return f"{name}.{wrong[0][0]} must be {_words.get(wrong[0][1], wrong[0][1])}, got {values[wrong[0][0]]!r}" if wrong else None
-
-
-def _fits(value, kind):
-	"""Whether Boost would take a value for a type."""
-	if kind == "str": return isinstance(value, str)
-	if kind in ("int", "float", "bool"):
-		if isinstance(value, str) or value is None: return False
-		try:
-			return bool(kind != "int" or int(value) == value) and isinstance(float(value), float)
-		except (TypeError, ValueError):
-			return False
-	if kind.startswith("Vector"):
-		try:
-			return len(value) == int(kind[-1]) and all(isinstance(float(part), float) for part in value)
-		except (TypeError, ValueError):
-			return False
-	return True
+	if missing: return TypeError(f"{name} needs {' and '.join(missing)}: {name}{_signature(parameters)}")
+	for word, kind, default in parameters:
+		if word not in values or (values[word] is None and default is None): continue
+		said = wrong(f"{name}.{word}", values[word], kind)
+		if said: return said
+	return None
 
 
 def _plain(value):
@@ -177,11 +165,11 @@ def _ofAttributes(kind, named, error):
 	plain = kind()
 	words = [
 		word for word, value in named.items()
-		if type(value).__name__ == got and not _fits(value, type_) and type(getattr(plain, word, None)).__name__ in (type_, "NoneType")
+		if type(value).__name__ == got and not fits(value, type_) and type(getattr(plain, word, None)).__name__ in (type_, "NoneType")
 	]
-	if words: return TypeError(f"{kind.__name__}.{words[0]} must be {_words.get(type_, type_)}, got {named[words[0]]!r}")
+	if words: return TypeError(f"{kind.__name__}.{words[0]} must be {wordsOf(type_)}, got {named[words[0]]!r}")
 	words = [word for word, value in named.items() if _isList(kind, word)]
-	if words: return TypeError(f"{kind.__name__}.{words[0]} must be a list, each of it {_words.get(type_, type_)}, got {named[words[0]]!r}")
+	if words: return TypeError(f"{kind.__name__}.{words[0]} must be a list, each of it {wordsOf(type_)}, got {named[words[0]]!r}")
 	return None
 
 
@@ -206,5 +194,5 @@ def _set(self, name, value):
 		except TypeError as error:
 			if type(error).__name__ != "ArgumentError": raise
 			present = getattr(self, name)
-		raise TypeError(f"{kind.__name__}.{name} must be {_words.get(type(present).__name__, type(present).__name__)}, got {value!r}")
+		raise TypeError(f"{kind.__name__}.{name} must be {wordsOf(type(present).__name__)}, got {value!r}")
 	raise AttributeError(f"{kind.__name__} has no attribute {name}{_closest(name, _attributes(kind))}; known: {' '.join(_attributes(kind))}")

@@ -1,7 +1,9 @@
 # yade-blocks, GPL-2.0-or-later
 """Where something ceases to hold."""
+from ._calls import door
 
 
+@door('low', 'high', 'precision', holds='function')
 def bisect(holds, low, high, precision):
 	"""The largest value that held and the smallest that did not, apart by no more than `precision` times the latter: (low, high).
 

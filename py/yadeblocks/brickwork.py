@@ -11,11 +11,12 @@ import math
 import numpy as np
 
 from ._calls import door
+from ._kinds import fits, shown
 from .layout import Layout
 from .specimen import rectangle
 
 
-@door('bricks', 'courses', 'length', 'height', 'joint', 'offset')
+@door('bricks', 'courses', 'length', 'height', 'joint', 'offset', first='str')
 def runningBond(bricks, courses, length, height, joint=0.0, first='whole', offset=0.5, **more):
 	"""Courses in turn without and with an offset (a fraction of a brick; 1/3: third bond).
 
@@ -45,24 +46,24 @@ def englishBond(bricks, courses, length, width, height, joint=0.0, **more):
 	return brickwork(bricks * (length + joint), courses, height, [(length, 0), (width, 0.5)], joint, **more)
 
 
-@door('width', 'courses', 'height', 'joint', 'least')
+@door('width', 'courses', 'height', 'joint', 'least', pattern='sequence', origin='point', crack='flag', openings='boxes')
 def brickwork(width, courses, height, pattern, joint=0.0, origin=(0.0, 0.0), crack=False, openings=(), least=0.2):
 	"""A wall of any such bond -> layout.Layout with blocks of the kinds 'whole', 'part' (cut at an end or an opening) and 'half' (with crack).
 
-	width of the wall with its joints, height of a brick [m]; pattern: a brick's length [m] and the fraction of it (with its joint) by which the
-	course begins
-	shorter, for each course, repeated from below; joint: thickness [m], half of which goes to each brick; origin: lower left corner [m]; crack:
-	a joint in the
-	middle of every whole brick; openings: rectangles (x0, y0, x1, y1) [m] that begin and end at bed joints; least: pieces shorter than this fraction of a
-	brick are refused. notes: `coursing` [m], the height of a course with its joint, and `courseOf`, the course of each block from below.
+	width of the wall with its joints, height of a brick [m]; pattern: a brick's length [m] and the fraction of it (with its joint) by which the course
+	begins shorter, for each course, repeated from below; joint: thickness [m], half of which goes to each brick; origin: lower left corner [m]; crack: a
+	joint in the middle of every whole brick; openings: rectangles (x0, y0, x1, y1) [m] that begin and end at bed joints; least: pieces shorter than this
+	fraction of a brick are refused. notes: `coursing` [m], the height of a course with its joint, and `courseOf`, the course of each block from below.
 
-	Errors: ValueError, which names the argument, the rule and the value."""
+	Errors: ValueError, and TypeError for what is of a wrong kind, which name the argument, the rule and the value."""
 	_require('width', width, width > 0, 'be positive')
 	_require('courses', courses, courses >= 1 and courses == int(courses), 'be a whole number > 0')
 	_require('height', height, height > 0, 'be positive')
 	_require('joint', joint, joint >= 0, 'not be negative')
 	_require('least', least, 0 < least < 1, 'lie in (0, 1)')
-	if not pattern: raise ValueError('brickwork.pattern must have at least one course')
+	if not len(pattern): raise ValueError('brickwork.pattern must have at least one course')
+	if not fits(pattern, 'points'):
+		raise TypeError(f'brickwork.pattern must be a list of pairs of numbers, length and shift of a course, got {shown(pattern)}')
 	coursing, (left, bottom) = height + joint, origin
 	holes = [_opening(box, origin, coursing, width, int(courses)) for box in openings]
 	outlines, kinds, pieces, courseOf, number = [], [], [], [], 0
@@ -86,6 +87,7 @@ def brickwork(width, courses, height, pattern, joint=0.0, origin=(0.0, 0.0), cra
 					pieces.append(number)
 					courseOf.append(course)
 				number += 1
+	if not outlines: raise ValueError(f'brickwork.openings must leave something of the wall, got {shown(openings)}')
 	return Layout(outlines, kinds, pieces, _nameOf, coursing=coursing, courseOf=np.array(courseOf))
 
 

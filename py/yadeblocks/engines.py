@@ -11,6 +11,10 @@ or, with YADE's own InteractionLoop and the same bits, at two to three times the
 """
 
 
+from ._calls import door
+
+
+@door(contact='flag', servo='mapping', newton='mapping')
 def loopList(contact=False, servo=None, newton=None, **motion):
 	"""The engines of a scene of blocks whose joints have their properties from bond(), for `O.engines`; recorders and the like are added behind them.
 
@@ -24,6 +28,7 @@ def loopList(contact=False, servo=None, newton=None, **motion):
 	return engines + [y.BlockMotion(**motion)] # masses or O.dt, motion
 
 
+@door(joints='sequence', contact='flag', stepper='mapping', servo='mapping', newton='mapping')
 def engineList(joints, contact=False, stepper={}, servo=None, newton=None, **integrator):
 	"""The engines of a scene of blocks, for `O.engines`; recorders and the like are added behind them.
 

@@ -10,6 +10,8 @@ from xml.etree import ElementTree
 import numpy as np
 
 from . import files
+from ._calls import door
+from ._kinds import wrong
 from .snapshot import poissonOf
 
 
@@ -38,9 +40,14 @@ def pointsOf(model, joints):
 	that no joint has."""
 	chosen = np.ones(len(model.pointStatus), bool)
 	if joints is None: return chosen
+	said = wrong("joints", joints, "joints")
+	if said: raise said
 	wanted = [joints] if isinstance(joints, str) else list(joints)
 	if not all(isinstance(name, str) for name in wanted):
 		chosen[:] = False
+		most = len(chosen) // 2
+		beyond = [joint for joint in wanted if not 0 <= joint < most]
+		if beyond: raise ValueError(f"joints: indices must lie in [0, {most}), got {beyond[0]}")
 		chosen.reshape(-1, 2)[np.asarray(wanted)] = True
 		return chosen
 	named = pointNames(model)
@@ -149,6 +156,7 @@ class State:
 	"""What BlocksExport writes of a model at a time [s]: copied, so that it can be written later, whatever has become of the model.
 
 	untouched: as the model was before anything moved, broke or was removed."""
+	@door(model='model', time='float', untouched='flag')
 	def __init__(self, model, time, untouched=False):
 		self.time = float(time)
 		self.names = list(getattr(model, "jointNames", ()))
@@ -166,6 +174,7 @@ class BlocksExport:
 	joints: firstBlock, secondBlock, name (a number, -1 without), normal (out of the first block), area [m2], opening [m], slip [m], sigma [Pa], tau [Pa],
 	status (0 intact, 1 broken in tension, 2 in shear, 3 never bonded, 4 softening) and damage (0 whole to 1, only residual strength is left);
 	contacts: firstBlock, secondBlock and force on the first [N]."""
+	@door(folder='file')
 	def __init__(self, folder):
 		self.folder = Path(folder)
 		self.folder.mkdir(parents=True, exist_ok=True)
@@ -174,6 +183,7 @@ class BlocksExport:
 			for old in (self.folder / f"{name}.pvd", self.folder / f"{name}.names.csv", *self.folder.glob(f"{name}_[0-9]*.vtu")):
 				old.unlink(missing_ok=True)
 
+	@door(model='model', time='float')
 	def write(self, model, time):
 		"""Adds the model as it is now, at this time [s]."""
 		self.add(State(model, time))
@@ -191,6 +201,7 @@ class BlocksExport:
 			_writeCollection(self.folder, name, self.times)
 
 
+@door(folder='file')
 def writeStates(folder, *states):
 	"""Both collections at once, of these States."""
 	export = BlocksExport(folder)
@@ -198,6 +209,7 @@ def writeStates(folder, *states):
 		export.add(state)
 
 
+@door(folder='file', film='film', end='model')
 def writeFilm(folder, film, end):
 	"""The model untouched, the frames and the peak of a Film, and the Snapshot `end`, each once."""
 	states = [snapshot for snapshot in film.states() if snapshot.time < end.time]

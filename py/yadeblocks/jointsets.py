@@ -11,15 +11,19 @@ from collections import namedtuple
 import numpy as np
 
 from ._calls import door
+from ._kinds import shown, wrong
 from .layout import Layout, joinSmall, _shapely
 
 #: Parallel joints. dip: angle of the traces with the x axis, counter-clockwise [degrees]; spacing: normal distance [m]; persistence: share of a trace that is
 #: joint, the rest is rock; length: mean length of the joints in a trace that is not persistent [m], 0: three spacings; scatter: standard deviation of spacing
-#: and lengths by their means (a lognormal law) and of the dip by a radian; seed: of the random numbers; through: a point on the first trace [m].
+#: and lengths by their means (a lognormal law) and of the dip by a radian; seed: of the random numbers; through: a point on the first trace [m], or whole spacings from it
+#: where it is beyond the polygon.
 JointSet = namedtuple('JointSet', 'name dip spacing persistence length scatter seed through', defaults=(1.0, 0.0, 0.0, 1, (0.0, 0.0)))
 
+_most = 100000 # so many joints of a set at most
 
-@door('least')
+
+@door('least', outline='polygon', sets='sequence', cracks='mapping', holes='polygons')
 def cut(outline, sets=(), cracks={}, holes=(), least=0.0):
 	"""Cuts a polygon [m] -> layout.Layout with blocks of the kind 'block'.
 
@@ -27,13 +31,13 @@ def cut(outline, sets=(), cracks={}, holes=(), least=0.0):
 	which they have the longest side in common.
 
 	A joint that ends within a block does not part it and is left out, as in UDEC. notes: `traces`, name -> list of (2, 2) arrays [m];
-	`lostLength`: of what was
-	left out [m]; `merged`: how many blocks joined a neighbour. Errors: ValueError for impossible sets and polygons."""
+	`lostLength`: of what was left out [m]; `merged`: how many blocks joined a neighbour.
+	Errors: ValueError for impossible sets, cracks and polygons, TypeError for what is of a wrong kind."""
+	if isinstance(sets, JointSet): raise TypeError(f'cut.sets must be a list of JointSets, got {shown(sets)}')
 	for joints in sets:
-		if not isinstance(joints, JointSet): raise TypeError(f'cut.sets must be JointSets, got {joints!r}')
-		for word in JointSet._fields[1:-1]:
-			if not isinstance(getattr(joints, word), (int, float, np.number)):
-				raise TypeError(f'JointSet.{word} must be a number, got {getattr(joints, word)!r} in {joints.name!r}')
+		if not isinstance(joints, JointSet): raise TypeError(f'cut.sets must be a list of JointSets, and one is {shown(joints)}')
+		_requireKinds(joints)
+	if least < 0: raise ValueError(f'cut.least must not be negative, got {least!r}')
 	shapely = _shapely()
 	region = shapely.geometry.Polygon(outline, holes)
 	if not region.is_valid: raise ValueError('cut.outline must be a simple polygon that holds its holes: ' + shapely.validation.explain_validity(region))
@@ -42,8 +46,13 @@ def cut(outline, sets=(), cracks={}, holes=(), least=0.0):
 		if joints.name in traces: raise ValueError(f'cut: the name {joints.name!r} must be given once')
 		traces[joints.name] = _tracesOf(joints, region.bounds)
 	for name, points in cracks.items():
+		said = wrong('cut.cracks: a name', name, 'str') or wrong(f'cut.cracks: {name!r}', points, 'points')
+		if said: raise said
 		if name in traces: raise ValueError(f'cut: the name {name!r} must be given once')
 		points = np.asarray(points, float)
+		if len(points) < 2 or not np.hypot(*np.diff(points, axis=0).T).all():
+			raise ValueError(f'cut.cracks: {name!r} must have at least two points, each away from the one before, got {shown(points.tolist())}')
+		if not shapely.geometry.LineString(points).intersects(region): raise ValueError(f'cut.cracks: {name!r} must reach the polygon, got {shown(points.tolist())}')
 		traces[name] = list(np.stack([points[:-1], points[1:]], axis=1))
 	lines = [shapely.geometry.LineString(trace) for of in traces.values() for trace in of]
 	inside = [part for line in lines for part in _lines(line.intersection(region))]
@@ -55,14 +64,21 @@ def cut(outline, sets=(), cracks={}, holes=(), least=0.0):
 			[[np.array(ring.coords)[:-1] for ring in piece.interiors] for piece in pieces], traces=traces, lostLength=max(0.0, lost), merged=merged)
 
 
+def _requireKinds(joints):
+	kinds = {**dict.fromkeys(JointSet._fields, 'finite'), 'name': 'str', 'seed': 'whole', 'through': 'point'}
+	for word, kind in kinds.items():
+		said = wrong(f'JointSet.{word}', getattr(joints, word), kind, f' in {joints.name!r}')
+		if said: raise said
+
+
 def _tracesOf(joints, bounds):
 	"""Segments of a set that cover a box."""
 	for name, value, fulfilled, rule in (('spacing', joints.spacing, joints.spacing > 0,
 						'be positive'), ('persistence', joints.persistence, 0 < joints.persistence <= 1,
 									'lie in (0, 1]'), ('length', joints.length, joints.length >= 0, 'not be negative'),
-						('scatter', joints.scatter, 0 <= joints.scatter < 1, 'lie in [0, 1)')):
+						('scatter', joints.scatter, 0 <= joints.scatter < 1, 'lie in [0, 1)'), ('seed', joints.seed, joints.seed >= 0, 'not be negative')):
 		if not fulfilled: raise ValueError(f'JointSet.{name} must {rule}, got {value!r} in {joints.name!r}')
-	random = np.random.default_rng(joints.seed)
+	random = np.random.default_rng(int(joints.seed))
 	vary = lambda mean: mean if not joints.scatter else mean * random.lognormal(-np.log1p(joints.scatter**2) / 2, np.log1p(joints.scatter**2)**0.5)
 	x0, y0, x1, y1 = bounds
 	corners, through = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]), np.asarray(joints.through, float)
@@ -70,12 +86,16 @@ def _tracesOf(joints, bounds):
 	along, across = np.array([np.cos(dip), np.sin(dip)]), np.array([-np.sin(dip), np.cos(dip)])
 	far, reach = (corners - through) @ across, np.hypot(x1 - x0, y1 - y0)
 	middle = (corners.mean(axis=0) - through) @ along
-	places = [0.0]
-	while places[-1] < far.max():
-		places.append(places[-1] + vary(joints.spacing))
-	while places[0] > far.min():
-		places.insert(0, places[0] - vary(joints.spacing))
 	joint = joints.length or 3 * joints.spacing
+	count = np.ptp(far) / joints.spacing * (1 if joints.persistence == 1 else 1 + 2 * reach * joints.persistence / joint)
+	if count > _most: raise ValueError(f'JointSet.spacing and length must be so large that there are {_most} joints at most, got {count:.3g} in {joints.name!r}')
+	start = np.clip(0.0, joints.spacing * np.floor(far.min() / joints.spacing), joints.spacing * np.ceil(far.max() / joints.spacing))
+	above, below = [start], [start]
+	while above[-1] < far.max():
+		above.append(above[-1] + vary(joints.spacing))
+	while below[-1] > far.min():
+		below.append(below[-1] - vary(joints.spacing))
+	places = below[:0:-1] + above
 	traces = []
 	for place in places:
 		turn = joints.scatter * random.standard_normal() if joints.scatter else 0

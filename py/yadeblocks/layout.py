@@ -12,6 +12,9 @@ from collections import Counter
 
 import numpy as np
 
+from ._calls import door
+from ._kinds import wrong
+
 
 def area(ring):
 	"""Area of a polygon [m2], positive if it is counter-clockwise."""
@@ -21,8 +24,9 @@ def area(ring):
 
 def counterClockwise(ring):
 	"""The polygon as an (n, 2) array with material on the left [m]; ValueError if it has less than three corners or no area."""
+	said = wrong('an outline', ring, 'polygon')
+	if said: raise ValueError(str(said))
 	ring = np.array(ring, float)
-	if ring.ndim != 2 or ring.shape[1] != 2 or len(ring) < 3: raise ValueError(f'a polygon needs at least three points (x, y), got shape {ring.shape}')
 	if len(ring) > 3 and (ring[0] == ring[-1]).all(): ring = ring[:-1]
 	size = area(ring)
 	if not abs(size) > 0: raise ValueError('a polygon must have an area, got one of %g' % size)
@@ -34,6 +38,7 @@ class Layout:
 
 	outlines: a list of (n, 2) arrays, counter-clockwise [m]; kinds: a word for each block ('whole', 'half', ...); pieces: a number for each block, the same
 	for those that are parts of one brick; nameOf(normals, ends, samePiece): see `Placed.joints`; notes: what else the builder has to say, by name."""
+	@door(outlines='sequence', kinds='sequence', pieces='sequence', nameOf='function', holes='sequence')
 	def __init__(self, outlines, kinds, pieces, nameOf, holes=None, **notes):
 		self.outlines, self.kinds, self.pieces = [counterClockwise(ring) for ring in outlines], list(kinds), np.asarray(pieces)
 		self.holes = holes or [[] for _ in self.outlines]
@@ -58,10 +63,12 @@ class Layout:
 		points = np.vstack(self.outlines)
 		return (*points.min(axis=0), *points.max(axis=0))
 
+	@door('zoneSize', model='model', material='str', rigid='flag')
 	def addTo(self, model, material, zoneSize=None, rigid=False, **region):
 		"""Adds all blocks to a BlockModel -> Placed. material: a label; zoneSize [m] and further arguments as in BlockModel.addRegion, or
 		rigid=True."""
-		if rigid == (zoneSize is not None): raise ValueError('Layout.addTo: either zoneSize or rigid=True')
+		if rigid == (zoneSize is not None):
+			raise ValueError(f'Layout.addTo must be given either zoneSize or rigid=True, got zoneSize={zoneSize!r} and rigid={rigid!r}')
 		if rigid and region: raise ValueError(f'Layout.addTo: rigid blocks have no {", ".join(region)}')
 		add = lambda ring, holes: model.addRigid(ring.tolist(), material, holes=holes
 								) if rigid else model.addRegion(ring.tolist(), material, zoneSize, holes=holes, **region)
@@ -73,12 +80,14 @@ class Placed:
 	def __init__(self, layout, blocks, outside='platen'):
 		self.layout, self.blocks, self.outside = layout, np.array(blocks), outside
 
+	@door(kind='str')
 	def of(self, kind):
 		"""Indices of the blocks of this kind; ValueError if there is none."""
 		chosen = self.blocks[np.array(self.layout.kinds) == kind]
 		if not len(chosen): raise ValueError(f'no block of the kind {kind!r}; there are {", ".join(sorted(self.layout.counts))}')
 		return chosen
 
+	@door(model='model', joints='sequence')
 	def bond(self, model, joints, **properties):
 		"""BlockModel.bond(joints), names for the joints (BlockModel.nameJoints), and then other properties for joints of a name:
 		bed=dict(cohesion=..., ...), as in BlockModel.setJoints. Returns the joints by name, as `joints` does. ValueError for a name that no joint
@@ -91,6 +100,7 @@ class Placed:
 			model.setJoints(named[name], **values)
 		return named
 
+	@door(model='model')
 	def nameJoints(self, model):
 		"""Gives the model's joints the builder's names, as `joints` returns them; after BlockModel.bond, for several layouts in one model."""
 		named = self.joints(model)
@@ -98,6 +108,7 @@ class Placed:
 			model.nameJoints(name, some)
 		return named
 
+	@door(model='model')
 	def joints(self, model):
 		"""Joints by name, indices for BlockModel.setJoints: {'bed': array, 'head': array, ..., 'platen': array}, each of those with the builder's names
 		that exists; 'platen' (`outside`) are those with blocks that are not of this layout. After bond(); RuntimeError before."""
@@ -125,6 +136,7 @@ class Mortared:
 	layout: of blocks that touch; gap: thickness of the mortar [m]. Sides at the outside and at openings stay where they are, and so do those between parts
 	of one piece (a possible crack in mid-brick). `blocks`: a Layout; `mortar`: a list of (outline, holes) [m]. Needs shapely (Debian's python3-shapely).
 	Errors: ValueError where a block is too thin for its mortar."""
+	@door('gap', layout='layout')
 	def __init__(self, layout, gap):
 		if not gap > 0: raise ValueError(f'Mortared.gap must be positive, got {gap!r}')
 		shapely = _shapely()
@@ -154,6 +166,7 @@ class Mortared:
 			(_corners(part.exterior), [_corners(ring) for ring in part.interiors]) for part in getattr(rest, 'geoms', [rest]) if part.area > 0
 		]
 
+	@door('zoneSize', 'size', model='model', material='str', mortar='str')
 	def addTo(self, model, material, mortar, zoneSize, size, **voronoi):
 		"""Adds Voronoi blocks of the material `mortar` and the blocks of `material` to a BlockModel -> Placed.
 

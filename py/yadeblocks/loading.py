@@ -23,7 +23,7 @@ from .progress import Progress
 from .recording import runner
 
 
-@door('ratio', 'floor', 'period', 'maxSteps')
+@door('ratio', 'floor', 'period', 'maxSteps', model='model')
 def settle(model, ratio=1e-4, floor=0.0, period=100, maxSteps=1000000):
 	"""Runs until the scene is at rest: unbalanced forces and kinetic energy are below `ratio` (the paper's 0.01 % by default) of what there is, as
 	`BlockModel.unrest` measures it, and every ramp is over.
@@ -51,6 +51,7 @@ def settle(model, ratio=1e-4, floor=0.0, period=100, maxSteps=1000000):
 	return O.iter - start
 
 
+@door(model='model', group='str', label='str', displacement='float')
 def follow(model, group, label='', displacement=math.inf, **options):
 	"""`BlockModel.follow` with a progress line, and one at the end that says why the path ends; options go to it. `displacement` is where it ends at the
 	latest [m].
@@ -78,11 +79,10 @@ _askedFor = {
 } # all other ends are sentences
 
 
-@door('within', 'ratio', 'floor', 'period', 'maxSteps')
+@door('within', 'ratio', 'floor', 'period', 'maxSteps', model='model')
 def comesToRest(model, within, ratio=1e-6, floor=0.0, period=500, maxSteps=100000):
 	"""Whether what moves comes to rest, True, or some grid point goes further than `within` [m] from its reference position or is still moving
-	after maxSteps
-	(counted from O.iter = 0), False. Rest is an unbalanced force ratio below `ratio`; floor, period: as in `settle`."""
+	after maxSteps (counted from O.iter = 0), False. Rest is an unbalanced force ratio below `ratio`; floor, period: as in `settle`."""
 	if not within > 0: raise ValueError('comesToRest: within must be positive, got %r' % within)
 	if not period >= 1: raise ValueError('comesToRest: period must be at least 1, got %r' % period)
 	from yade.wrapper import Omega
@@ -94,6 +94,7 @@ def comesToRest(model, within, ratio=1e-6, floor=0.0, period=500, maxSteps=10000
 	return False
 
 
+@door(times='numbers', acceleration='numbers')
 def accelerogram(times, acceleration):
 	"""Times [s] and the velocities [m/s] that accelerations [m/s2] bring about, from rest, for `Motion`. The baseline is not corrected."""
 	times, acceleration = np.asarray(times, float), np.asarray(acceleration, float)
@@ -107,6 +108,7 @@ class Motion:
 
 	motion = Motion(model, 'base', lambda t: 0.1 * math.sin(20 * t))
 	O.engines = [motion.engine()] + O.engines           # first of all: what it says is of the middle of the step"""
+	@door(model='model', group='str')
 	def __init__(self, model, group, values):
 		from yade.wrapper import Omega
 		self.model, self.group, self.start = model, group, Omega().time
@@ -149,7 +151,7 @@ class Approach:
 
 	>>> approach = Approach(model, 'top', slow=0.25)
 	>>> approach(stress, broken)     # every now and then"""
-	@door('slow', 'drop', 'growth')
+	@door('slow', 'drop', 'growth', model='model', group='str')
 	def __init__(self, model, group, slow, drop=0.7, growth=1.1):
 		if not 0 < slow <= 1: raise ValueError('Approach: slow must lie in (0, 1], got %r' % slow)
 		if not 0 < drop < 1: raise ValueError('Approach: drop must lie in (0, 1), got %r' % drop)

@@ -11,39 +11,58 @@ from pathlib import Path
 
 import numpy as np
 
+from ._calls import door
 from .layout import counterClockwise
 
 #: name: of the layer (DXF), the id or label (SVG) or the third column (CSV), '' without one; ring: (n, 2) array, counter-clockwise [m].
 Outline = namedtuple('Outline', 'name ring')
 
 
+@door('unit', 'sagitta', path='file')
 def read(path, unit=1.0, sagitta=None):
 	"""All closed polygons of a file -> a list of Outline, in the order of the file.
 
 	unit: metres in a unit of the drawing (1e-3 for millimetres); sagitta: how far chords may leave a curve [m], by default a thousandth of the drawing's
 	size. CSV: a line x,y or x,y,name for each corner, an empty line (or another name) between two polygons, lines that begin with # are remarks.
-	DXF: closed
-	polylines with their arcs, circles and ellipses of the model space. SVG: closed paths and shapes with their transformations, y turned upwards,
-	in pixels (96 an inch). Errors: ValueError for other files, for those without a closed polygon and for polylines that are open."""
+	DXF: closed polylines with their arcs, circles and ellipses of the model space. SVG: closed paths and shapes with their transformations, y turned
+	upwards, in pixels (96 an inch).
+	Errors: OSError where there is no such file, ValueError for other files, for those without a closed polygon and for polylines that are open."""
 	path = Path(path)
 	if not unit > 0: raise ValueError('outlines.read: unit must be positive, got %r' % unit)
 	if sagitta is not None and not sagitta > 0: raise ValueError('outlines.read: sagitta must be positive, got %r' % sagitta)
 	readers = {'.csv': _csv, '.dxf': _dxf, '.svg': _svg}
 	if path.suffix.lower() not in readers: raise ValueError(f'outlines.read: {path.name} must end in one of {" ".join(readers)}')
+	with open(path, 'rb'): # a file that is not there is said so, whoever reads it
+		pass
 	found = readers[path.suffix.lower()](path, sagitta and sagitta / unit)
 	if not found: raise ValueError(f'outlines.read: {path.name} has no closed polygon')
-	return [Outline(name, counterClockwise(unit * np.asarray(ring, float))) for name, ring in found]
+	polygons = []
+	for number, (name, ring) in enumerate(found, 1):
+		try:
+			polygons.append(Outline(name, counterClockwise(unit * np.asarray(ring, float))))
+		except ValueError as error:
+			raise ValueError(f'outlines.read: polygon {number} of {path.name}{name and f" ({name})"}: {error}') from None
+	return polygons
+
+
+def _notOf(path, kind, error):
+	return ValueError(f'outlines.read: {path.name} cannot be read as {kind}: {error}')
 
 
 def _csv(path, sagitta):
 	rings = []
 	name = None
-	with open(path, newline='') as file:
-		for number, row in enumerate(csv.reader(file), 1):
+	with open(path, newline='', encoding='utf-8-sig') as file:
+		try:
+			rows = list(csv.reader(file))
+		except (UnicodeDecodeError, csv.Error) as error:
+			raise _notOf(path, 'CSV', error) from None
+		for number, row in enumerate(rows, 1):
 			if not any(cell.strip() for cell in row): name = None
 			elif not row[0].lstrip().startswith('#'):
 				try:
 					point = float(row[0]), float(row[1])
+					if not np.isfinite(point).all(): raise ValueError
 				except (ValueError, IndexError):
 					raise ValueError(f'outlines.read: line {number} of {path.name} must be x,y or x,y,name, got {",".join(row)}') from None
 				label = row[2].strip() if len(row) > 2 else ''
@@ -59,7 +78,11 @@ def _dxf(path, sagitta):
 		from ezdxf import path as paths
 	except ImportError as error:
 		raise ImportError('DXF needs ezdxf: scripts/install.sh python3-ezdxf') from error
-	shapes = list(ezdxf.readfile(path).modelspace().query('LWPOLYLINE POLYLINE CIRCLE ELLIPSE'))
+	try:
+		drawing = ezdxf.readfile(path)
+	except (OSError, UnicodeDecodeError, ezdxf.DXFError) as error:
+		raise _notOf(path, 'DXF', error) from None
+	shapes = list(drawing.modelspace().query('LWPOLYLINE POLYLINE CIRCLE ELLIPSE'))
 	curves = [(shape.dxf.layer, paths.make_path(shape)) for shape in shapes]
 	for layer, curve in curves:
 		if not curve.is_closed: raise ValueError(f'outlines.read: {path.name} has an open polyline on layer {layer}')
@@ -74,7 +97,10 @@ def _svg(path, sagitta):
 		import svgelements
 	except ImportError as error:
 		raise ImportError('SVG needs svgelements: scripts/install.sh python3-svgelements') from error
-	drawing = svgelements.SVG.parse(str(path), reify=True)
+	try:
+		drawing = svgelements.SVG.parse(str(path), reify=True)
+	except (SyntaxError, ValueError) as error: # xml's ParseError is a SyntaxError
+		raise _notOf(path, 'SVG', error) from None
 	shapes = [element for element in drawing.elements() if isinstance(element, svgelements.Shape)]
 	boxes = [box for box in (shape.bbox() for shape in shapes) if box]
 	if not boxes: return []

@@ -9,6 +9,8 @@ import sys
 
 import numpy as np
 
+from ._calls import door
+
 kineticShare, reactionsApart = 0.05, 0.1 # what is plainly too fast: kinetic by strain energy, reaction against load
 _least = 10 # looks that are taken together: single ones tell of waves
 
@@ -41,6 +43,7 @@ class Pace:
 	load: the force that is brought on [N]; reaction: that of what holds against it [N], or None; their signs do not count.
 	label: names the run in what is said.
 	`said` is what was said, "" if nothing: that the run is too fast, once, on stderr."""
+	@door(model='model', load='function', reaction='function', label='str')
 	def __init__(self, model, load, reaction=None, label="", stream=None):
 		self.model, self.load, self.reaction, self.label, self.stream = model, load, reaction, label, stream
 		self.said, self._known, self._highest, self._count, self._sums, self._cracked = "", {}, 0.0, 0, np.zeros(4), False

@@ -6,9 +6,12 @@
 """
 import numpy as np
 
+from ._calls import door
+
 solidity = 0.86 # share of the area that discs may take; more than random close packing, so that some have to go
 
 
+@door('width', 'height', 'radius', 'spread', seed='whole')
 def randomPacking(width, height, radius, seed, spread=0.2):
 	"""Discs with radii between (1 - spread) and (1 + spread) radius, dense and without order, inside a rectangle with its
 	lower left corner at the origin [m]. Returns centres (n, 2) and radii (n).
@@ -47,6 +50,7 @@ def _pushApart(centres, radii, size, sweeps):
 	return centres, squeezed
 
 
+@door('width', 'height', 'radius', seed='whole')
 def hexagonalPacking(width, height, radius, seed=1):
 	"""Equal discs that just touch, in rows; as many rows and discs as fit, centred. The seed shifts the rows by a part of a diameter."""
 	rows = 1 + int((height - 2 * radius) / (np.sqrt(3) * radius) + 1e-9)

@@ -38,11 +38,14 @@ _textWidth = 6.3 # of a page: the width of a picture [inch]
 _point = 1 / 72 # [inch]
 
 
+@door(path='path', curves='table', x='str', y='str', references='sequence', title='str')
 def drawCurve(path, curves, x, y, labels=None, references=(), title=""):
 	"""The curve y(x) of every seed with its peak or, of several seeds, the mean peak with standard deviations; references.
 
 	curves: a DataFrame with the columns `seed`, x and y, as Results.curves; labels: of the two axes, with units, by default
 	the column names; references: a list of Reference, in the units of the columns. Returns the path."""
+	for name in ("seed", x, y):
+		if name not in curves: raise ValueError(f"drawCurve: {name!r} must be a column of curves; there are {', '.join(map(str, curves.columns))}")
 	runs = [run for _, run in curves.groupby("seed")]
 	with _picture(path, _textWidth, 0.6 * _textWidth) as figure:
 		axes = figure.add_subplot()
@@ -62,7 +65,7 @@ def drawCurve(path, curves, x, y, labels=None, references=(), title=""):
 	return path
 
 
-@door('magnification')
+@door(magnification='notNegative', path='path', model='model', window='box', title='str', names='mapping', joints='joints')
 def drawCracks(path, model, magnification=None, window=None, title="", names=None, joints=None):
 	"""The specimen in its deformed shape: blocks in the light tones of their materials, on top the cracks, coloured by joint type,
 	solid where the joint broke in tension, dashed where it broke in shear.
@@ -78,7 +81,7 @@ def drawCracks(path, model, magnification=None, window=None, title="", names=Non
 		magnification = _visible(np.ptp(reference[there], axis=0).max(), displacement[there])
 	shown = reference + magnification * displacement
 
-	low, high = _window(reference, shown, there) if window is None else np.reshape(window, (2, 2))
+	low, high = _window(reference, shown, there) if window is None else _corners(window)
 	width, height = (high - low) * min(_textWidth / (high - low)[0], 1.3 * _textWidth / (high - low)[1])
 	with _picture(path, width, height) as figure:
 		axes = figure.add_axes((0, 0, 1, 1), xlim=(low[0], high[0]), ylim=(low[1], high[1]))
@@ -271,6 +274,13 @@ def _window(reference, shown, there=True):
 	low, high = np.minimum(low, shown[near].min(axis=0, initial=np.inf)), np.maximum(high, shown[near].max(axis=0, initial=-np.inf))
 	margin = 0.015 * (high - low).max()
 	return low - margin, high + margin
+
+
+def _corners(window):
+	"""Lower left and upper right corner of a window (x0, y0, x1, y1)."""
+	low, high = np.reshape(window, (2, 2))
+	if not (low < high).all(): raise ValueError(f"window must have x0 < x1 and y0 < y1, got {window!r}")
+	return low, high
 
 
 def _roundDown(number):

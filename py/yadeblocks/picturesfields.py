@@ -15,6 +15,7 @@
 import numpy as np
 
 from . import files, pictures
+from ._calls import door
 from .export import (Present, blockOutlines, contactLines, freeContactLines, jointMotion, outOfPlaneStress, pointNames, pointsOf, principalStresses, vonMises)
 from .snapshot import reactionsOf
 
@@ -32,18 +33,21 @@ _crosses = 900 # so many crosses at most
 _red, _blue = "#B2182B", "#2166AC" # tension and compression, also at the ends of the colour map
 
 
+@door(magnification='notNegative', path='path', model='model', window='box', title='str', what='str')
 def drawField(path, model, what, magnification=None, window=None, title=""):
 	"""Contours of one of `fields` on the deformed specimen. magnification, window: as in pictures.drawCracks. Returns the path."""
 	_known("what", what, fields)
 	return _alone(path, model, lambda axes, view: _field(axes, view, what), magnification, window, title or _names[what])
 
 
+@door(magnification='notNegative', path='path', model='model', window='box', title='str')
 def drawCrosses(path, model, magnification=None, window=None, title="principal stresses"):
 	"""Principal stresses as crosses along their directions, as long as they are large; tension red, compression blue; of at most 900 zones,
 	evenly spread."""
 	return _alone(path, model, _cross, magnification, window, title)
 
 
+@door(magnification='notNegative', path='path', model='model', window='box', title='str', what='str', joints='joints')
 def drawJoints(path, model, what, magnification=None, window=None, title="", joints=None):
 	"""Bars on the joints, as high as one of `onJoints` is large: a bar for each contact point, over its half of the joint; positive values
 	(tension, opening)
@@ -54,23 +58,27 @@ def drawJoints(path, model, what, magnification=None, window=None, title="", joi
 	return _alone(path, model, lambda axes, view: _bars(axes, view, what, joints=joints), magnification, window, title)
 
 
+@door(magnification='notNegative', path='path', model='model', window='box', title='str', joints='joints')
 def drawNames(path, model, magnification=None, window=None, title="joints by name", joints=None):
 	"""Joints as lines, coloured by their names (BlockModel.nameJoints; else by their pairs of materials), with how many each name has. joints: which, a
 	name, a list of names or indices, by default all."""
 	return _alone(path, model, lambda axes, view: _joints(axes, view, joints), magnification, window, title, drop=9)
 
 
+@door(magnification='notNegative', path='path', model='model', window='box', title='str')
 def drawContacts(path, model, magnification=None, window=None, title="free contacts"):
 	"""Edges that touch without a bond, as of the last step: where they face each other, and the force between them as an arrow on each side. Needs
 	BlockLoop(contact=True) or BlockContacts in the run."""
 	return _alone(path, model, _contacts, magnification, window, title)
 
 
+@door(magnification='notNegative', path='path', model='model', window='box', title='str')
 def drawReactions(path, model, magnification=None, window=None, title="reactions"):
 	"""Forces on the blocks of groups and of rigid blocks that are held: an arrow at the middle of each, with its two components."""
 	return _alone(path, model, _reactions, magnification, window, title)
 
 
+@door('rate', magnification='notNegative', path='file', states='models', what='str', window='box', title='str')
 def drawMovie(path, states, what="cracks", magnification=None, window=None, title="", rate=5):
 	"""A movie of Snapshots: one of `fields` or `onJoints`, 'cracks', 'crosses', 'contacts' or 'reactions'. path: .gif (Pillow) or .mp4 (needs Debian's
 	ffmpeg); rate: frames a second. All frames have one window, one magnification and one range of colours. Returns the path."""
@@ -82,7 +90,8 @@ def drawMovie(path, states, what="cracks", magnification=None, window=None, titl
 	writers = {".gif": matplotlib.animation.PillowWriter, ".mp4": matplotlib.animation.FFMpegWriter}
 	path = Path(path)
 	_known("path's ending", path.suffix, tuple(writers))
-	if not states: raise ValueError("drawMovie: there are no states")
+	if not len(states): raise ValueError("drawMovie: there are no states")
+	if not rate > 0: raise ValueError(f"drawMovie.rate must be positive, got {rate!r}")
 	if not writers[path.suffix].isAvailable():
 		raise RuntimeError(f"a movie {path.suffix} needs {'ffmpeg: scripts/install.sh ffmpeg' if path.suffix == '.mp4' else 'Pillow'}")
 	last = _View(states[-1], magnification, window)
@@ -109,6 +118,7 @@ def drawMovie(path, states, what="cracks", magnification=None, window=None, titl
 	return path
 
 
+@door(magnification='notNegative', path='path', model='model', window='box', title='str')
 def drawSheet(path, model, magnification=None, window=None, title=""):
 	"""Cracks, displacement, larger and smaller principal stress, crosses, and bars of the joints' sigma, tau, opening and slip, on one sheet."""
 	view = _View(model, magnification, window)
@@ -147,7 +157,7 @@ class _View:
 			np.ptp(reference[self.there.nodes], axis=0).max(), displacement[self.there.nodes]
 		) if magnification is None else magnification
 		self.shown = reference + self.magnification * displacement
-		self.low, self.high = pictures._window(reference, self.shown, self.there.nodes) if window is None else np.reshape(window, (2, 2))
+		self.low, self.high = pictures._window(reference, self.shown, self.there.nodes) if window is None else pictures._corners(window)
 
 
 def _alone(path, model, draw, magnification, window, title, drop=38):

@@ -21,12 +21,10 @@ class Platen:
 
 	Errors: ValueError for a block that is not rigid, numbers that are none, a negative ramp and a servo's value beyond BlockServo's limits;
 	RuntimeError before insert()."""
-	@door('block', 'rampTime')
+	@door('rampTime', model='model', block='whole', velocity='point', servo='mapping')
 	def __init__(self, model, block, velocity, rampTime=0.0, servo=None):
 		from yade.wrapper import Omega
 		self.model, self.block, self.velocity, self.rampTime = model, int(block), np.array(velocity, float), float(rampTime)
-		if self.velocity.shape != (2, ) or not np.isfinite(self.velocity).all():
-			raise ValueError(f"Platen.velocity must be a vector (vx, vy) [m/s], got {velocity!r}")
 		if not (rampTime >= 0 and np.isfinite(rampTime)): raise ValueError(f"Platen.rampTime must not be negative [s], got {rampTime!r}")
 		body = model.bodyOf(self.block)
 		if model.firstZone[self.block] != model.firstZone[self.block + 1]:
@@ -57,6 +55,7 @@ class Platen:
 		"""For the beginning of O.engines."""
 		return runner(f"platen {self.block}", self, initRun=True)
 
+	@door('fraction')
 	def jump(self, fraction=0.97):
 		"""BlockModel.elasticJump with this platen at its velocity; there is no ramp any more. What it returns, and its errors, after which all is as it
 		was."""
@@ -82,6 +81,7 @@ class Platen:
 		return np.array(self.body.state.pos - self.body.state.refPos)[:2]
 
 
+@door('target', 'floor', 'least', 'period')
 def _servo(target=1e-3, floor=0.0, least=0.05, period=10):
 	"""A servo's settings, checked."""
 	if not (target > 0 and np.isfinite(target)): raise ValueError(f"Platen.servo: target must be positive, got {target!r}")

@@ -11,6 +11,8 @@ from collections import namedtuple
 
 import numpy as np
 
+from ._calls import door
+
 _known = {} # by name: what PyRunner's commands refer to, which are text
 
 
@@ -20,6 +22,9 @@ class Recorder:
 	A recorder takes the name over from an earlier one of the same name, whose engines then read for the new one."""
 	def __init__(self, name="record", /, **columns):
 		if not columns: raise TypeError("Recorder: no columns are given")
+		for column, read in columns.items():
+			if not callable(read): raise TypeError(f"Recorder.{column} must be a function without arguments, got {read!r}")
+		if not isinstance(name, str): raise TypeError(f"Recorder.name must be a text, got {name!r}")
 		self.name, self.columns, self.rows, self.followers = name, columns, [], []
 		self.Row = namedtuple("Row", columns)
 		_known[name] = self
@@ -37,11 +42,13 @@ class Recorder:
 		self.rows += [self.Row(*row) for row in zip(*np.broadcast_arrays(*(columns.pop(name) for name in self.columns)))]
 		if columns: raise TypeError(f"Recorder: there is no column {', '.join(columns)}")
 
+	@door(follower='function')
 	def after(self, follower):
 		"""Calls follower(row) after each reading; several are called in this order. Returns the recorder."""
 		self.followers.append(follower)
 		return self
 
+	@door(iterPeriod='whole')
 	def engine(self, iterPeriod=1, **attributes):
 		"""A PyRunner that reads a row every so many steps, for O.engines."""
 		return runner(self.name, self, iterPeriod, **attributes)

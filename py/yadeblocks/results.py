@@ -25,6 +25,7 @@ from typing import Optional
 import numpy as np
 
 from . import files
+from ._calls import door
 from .curves import hasPeak
 from .export import pointNames
 from .recording import known, runner
@@ -40,6 +41,7 @@ class Cracks:
 
 	To be made at the start of a run: areas count as they were bonded. Joints count under their names: those of the model (BlockModel.nameJoints), or
 	names: name -> indices of joints; what has no name counts under that of its pair of materials. names={}: pairs of materials alone."""
+	@door(model='model', names='mapping')
 	def __init__(self, model, names=None):
 		self.model = model
 		self.pairs = pointNames(model, names)
@@ -178,6 +180,7 @@ class Run:
 		if kept["table"] is not None: run.curve(**{name: column for name, column in kept["table"].items() if name != "seed"})
 		return run
 
+	@door(name="str", unit="str", measured="float", expected="float", source="str")
 	def add(self, name, unit, measured, expected=None, source=None):
 		"""A measured number, and what it should be according to `source`, in the same unit."""
 		if name in self.quantities:
@@ -189,6 +192,10 @@ class Run:
 
 		A stress that does not fall by 5 % after its highest value has no peak, which the report says."""
 		import pandas
+		if not columns: raise TypeError("Run.curve: no columns are given")
+		shapes = {name: np.shape(column) for name, column in columns.items()}
+		given = {shape for shape in shapes.values() if shape} # a number stands for all rows
+		if len(given) != 1 or len(*given) != 1: raise ValueError(f"Run.curve: columns must be lists of one length, got shapes {shapes}")
 		self.table = pandas.DataFrame(columns)
 		self.table.insert(0, "seed", self.seed)
 		self.hasPeak = None if "stress_MPa" not in self.table else hasPeak(self.table.stress_MPa)

@@ -12,17 +12,17 @@ from ._calls import door
 from .layout import Layout, joinSmall, _shapely
 
 
-@door('size', 'seed', 'lloyd', 'flatness')
+@door('size', 'seed', 'lloyd', 'flatness', outline='polygon', holes='polygons')
 def rubble(outline, size, seed=1, lloyd=2, flatness=1.0, holes=()):
 	"""Voronoi stones -> layout.Layout with blocks of the kind 'stone'.
 
 	outline, holes: polygons [m]; size: root of the stones' mean area [m]; seed: of the random points; lloyd: iterations towards regular stones;
 	flatness: mean width by height of the stones, 2 for flat ones as they are laid. Stones that a hole or a corner cuts in two become two;
 	what is less than a twentieth of the mean joins a neighbour.
-	Errors: ValueError, which names the argument, the rule and the value."""
+	Errors: ValueError, and TypeError for what is no number or polygon, which name the argument, the rule and the value."""
 	for name, value, fulfilled, rule in (('size', size, size > 0,
 						'be positive'), ('lloyd', lloyd, lloyd >= 0 and lloyd == int(lloyd), 'be a whole number >= 0'),
-						('flatness', flatness, flatness > 0, 'be positive')):
+						('flatness', flatness, flatness > 0, 'be positive'), ('seed', seed, seed >= 0 and seed == int(seed), 'be a whole number >= 0')):
 		if not fulfilled: raise ValueError(f'rubble.{name} must {rule}, got {value!r}')
 	shapely = _shapely()
 	region = shapely.geometry.Polygon(outline, holes)
@@ -31,7 +31,7 @@ def rubble(outline, size, seed=1, lloyd=2, flatness=1.0, holes=()):
 	flat = lambda shape, by: shapely.ops.transform(lambda x, y: (np.asarray(x) * by[0], np.asarray(y) * by[1]), shape)
 	even = flat(region, stretch)
 	count = max(2, round(region.area / size**2))
-	points = _inside(shapely, even, count, np.random.default_rng(seed))
+	points = _inside(shapely, even, count, np.random.default_rng(int(seed)))
 	for _ in range(int(lloyd) + 1):
 		cells = [cell.intersection(even) for cell in shapely.ops.voronoi_diagram(shapely.geometry.MultiPoint(points), envelope=even).geoms]
 		cells = [part for cell in cells for part in getattr(cell, 'geoms', [cell]) if part.geom_type == 'Polygon' and part.area > 0]

@@ -28,11 +28,13 @@ from . import _plugin, files, running
 from .checkpoint import Checkpoints, Stranger
 from .provenance import fingerprint, sourcesOf
 from .results import Results, Run
+from .scenario import Parameters
 
 
 class Session:
 	"""Gathers the results of a scenario. parameters: from scenario.parameters."""
 	def __init__(self, parameters):
+		if not isinstance(parameters, Parameters): raise TypeError(f"Session.parameters must be what scenario.parameters returned, got {parameters!r}")
 		self.parameters, self.results, self.folder = parameters, Results(parameters), parameters.folder
 		self.period = getattr(parameters, "checkpoint", 0)
 		self.waiting, self.troubles = [], []

@@ -8,6 +8,8 @@ import math
 
 import numpy as np
 
+from ._calls import door
+
 _lasting = (
 	"thickness", "planeStress", "reference", "zoneNodes", "firstNode", "firstZone", "firstEdge", "edgeNodes", "blockMaterial", "materialLabels",
 	"segmentNodes", "segmentBlocks", "segmentParameters"
@@ -20,6 +22,7 @@ class Snapshot:
 	was taken [s].
 
 	like: a Snapshot of the same model, whose arrays that never change are shared. `poisson`: Poisson's ratio of every material of materialLabels."""
+	@door(model='model', time='float', like='model')
 	def __init__(self, model, time=math.nan, like=None):
 		for name in _lasting:
 			value = getattr(like or model, name)
@@ -83,6 +86,7 @@ def _heldBlocks(model):
 
 class Film:
 	"""Snapshots of a run. frames: how many in equal parts of the way, 0 for the peak alone. They stay in memory until they are written."""
+	@door(model='model', frames='whole')
 	def __init__(self, model, frames=0):
 		if frames < 0: raise ValueError(f"Film.frames must not be negative, got {frames!r}")
 		self.model, self.count, self.frames, self.peak, self.highest = model, frames, [], None, -math.inf
@@ -95,6 +99,7 @@ class Film:
 		if higher: self.peak, self.highest = now, stress
 		if due: self.frames.append(now)
 
+	@door(iterPeriod='whole')
 	def engine(self, iterPeriod):
 		"""An engine for O.engines that takes a frame every so many steps."""
 		from .recording import runner

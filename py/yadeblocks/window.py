@@ -9,7 +9,10 @@ Blocks are drawn by the class Gl1_Block, joints and their stresses by Gl1_BlockG
 set there. Needs YADE started with its window, so without `yade -n`."""
 import time
 
+from ._calls import door
 
+
+@door(colour='str', zones='flag', cracks='flag', range='point', joints='flag', stresses='flag')
 def show(colour='material', zones=False, cracks=True, range=None, joints=False, stresses=False):
 	"""Opens YADE's window, or takes the one that is open, and looks straight on the blocks -> the view, see yade.qt.View.
 
@@ -44,6 +47,7 @@ def show(colour='material', zones=False, cracks=True, range=None, joints=False, 
 	return view
 
 
+@door(path='file')
 def snapshot(path):
 	"""Saves what the window shows as a picture (.png, .jpg) -> its path. Errors: RuntimeError without a window, OSError if the file cannot be written."""
 	from PyQt5.QtWidgets import QApplication, QOpenGLWidget

@@ -88,7 +88,7 @@ def test_servoOfAPlaten():
 
 
 @pytest.mark.parametrize(
-	'arguments, words', [(dict(velocity=3), 'Platen.velocity must be a vector'), (dict(velocity=(0, np.nan)), 'Platen.velocity must be a vector'),
+	'arguments, words', [(dict(velocity=(0, np.nan)), r'Platen.velocity must be a pair of finite numbers \(x, y\), got \(0, nan\)'),
 				(dict(rampTime=-1), 'Platen.rampTime must not be negative'),
 				(dict(servo=dict(target=0)), 'Platen.servo: target must be positive'),
 				(dict(servo=dict(least=2)), 'Platen.servo: least must lie in'), (dict(servo=dict(period=0)), 'Platen.servo: period must be'),

@@ -22,6 +22,15 @@ namespace {
 
 	/// As BlockModel.pointStatus counts: 1 tension, 2 shear, 0 nothing breaks.
 	int modeOf(blocks::PointEvent how) { return how == blocks::PointEvent::none ? 0 : how == blocks::PointEvent::tension ? 1 : 2; }
+
+	string shown(const py::object& object) { return py::extract<string>(object.attr("__repr__")()); }
+
+	/// How many gauges a list holds.
+	long lengthOf(const py::object& gauges)
+	{
+		if (!PySequence_Check(gauges.ptr())) throw std::invalid_argument("BlockModel.follow.gauges must be a list of Gauges, got " + shown(gauges));
+		return py::len(gauges);
+	}
 }
 
 const char* const followDoc
@@ -94,13 +103,19 @@ follow(BlockModel&       model,
 	if (name.check())
 		driver.group = int(&model.group(name()) - a.state.groups.data());
 	else {
-		const int block = py::extract<int>(group);
+		const py::extract<int> index(group);
+		if (!index.check())
+			throw std::invalid_argument("BlockModel.follow.group must be the name of a group or the index of a rigid block, got " + shown(group));
+		const int block = index();
 		for (size_t i = 0; i < a.state.rigid.size(); ++i)
 			if (a.state.rigid[i].block == block) driver.rigid = int(i);
 		blocks::require(driver.rigid >= 0, "BlockModel.follow needs the name of a group or the index of a rigid block", block);
 	}
 	std::vector<blocks::Gauge> functionals;
-	for (long k = 0; k < py::len(gauges); ++k) {
+	for (long k = 0; k < lengthOf(gauges); ++k) {
+		for (const char* name : { "axis", "below", "above" })
+			if (!PyObject_HasAttrString(py::object(gauges[k]).ptr(), name))
+				throw std::invalid_argument("BlockModel.follow.gauges must be a list of Gauges, got " + shown(gauges));
 		const int axis = py::extract<int>(gauges[k].attr("axis"));
 		functionals.emplace_back();
 		for (const char* side : { "below", "above" }) {
