@@ -49,7 +49,8 @@ source = 'Raijmakers and Vermeltfoort 1992, as digitised; +- 8; another reading 
 
 p = scenario.parameters({
 	**scenario.usualParameters(
-		threads=1, tag='', seed=1, seeds=1, checkpoint=0., resume=False, alpha=0.4, stroke=4e-3, steps=80000, sigma=0.3e6, vtk=True, frames=10, movie='none', sheets=True
+		threads=1, tag='', seed=1, seeds=1, checkpoint=0., resume=False, damping='local', alpha=0.4, stroke=4e-3, steps=80000, sigma=0.3e6, vtk=True,
+		frames=10, movie='none', sheets=True
 	), 'detail': Key('interface', 'mortar joints without thickness, or mortar of Voronoi blocks',
 				rule=('interface', 'mortar')), 'crack': Key(True, 'possible cracks in the middle of the bricks'),
 	'crackStiffness': Key(1e13, 'stiffness of these', 'Pa/m', scenario.positive), 'cap': Key(True, 'joints can be crushed, with detail=interface'),
@@ -91,7 +92,7 @@ def build(seed):
 	model.push('press', top, 'y', force=-load, rampTime=pressSteps * dt)
 	model.drive('side', top, 'x')
 	model.insert()
-	O.dt, O.engines = dt, loopList(contact=True, alpha=p.alpha)
+	O.dt, O.engines = dt, loopList(contact=True, damping=p.damping, alpha=p.alpha)
 	O.run(1, True)
 	loading.settle(model, floor=1e-2 * load)
 	if p.held:
@@ -126,7 +127,8 @@ def shear(stage, seed):
 	cracks, film, stop = Cracks(model), Film(model, p.frames if p.vtk or p.movie != 'none' else 0), loading.Stop(displacement=p.stroke)
 	record = Recorder(
 		displacement=lambda: model.groupTravelled('side'), force=lambda: model.groupForce('side'), base=lambda: -model.groupForce('base', axis='x'),
-		normal=lambda: -model.groupForce('press'), broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=1e-2 * load), kinetic=model.kineticEnergy
+		normal=lambda: -model.groupForce('press'), broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=1e-2 * load),
+		kinetic=model.kineticEnergy
 	)
 	pace = Pace(model, lambda: model.groupForce('side'), lambda: model.groupForce('base', axis='x'), stage.label)
 	if not stage.model: model.setTarget('side', p.stroke / (p.steps * dt), rampTime=0.1 * p.steps * dt)
@@ -159,8 +161,8 @@ with Session(p) as session:
 			for x in (0.2, 2.0, 3.0):
 				if 1e3 * p.stroke >= x: run.add('force_at_%g_mm' % x, 'kN', at(x), float(np.interp(x, *measured)), 'the digitised curve')
 			run.curve(
-				displacement_mm=1e3 * displacement, force_kN=force / 1e3, base_kN=record['base'] / 1e3, normal_kN=record['normal'] / 1e3, broken=record['broken'],
-				kinetic_J=record['kinetic']
+				displacement_mm=1e3 * displacement, force_kN=force / 1e3, base_kN=record['base'] / 1e3, normal_kN=record['normal'] / 1e3,
+				broken=record['broken'], kinetic_J=record['kinetic']
 			)
 			run.add('damage_near_the_diagonal', '1', nearDiagonal(model))
 			run.model(model, steps=O.iter)

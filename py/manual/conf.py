@@ -8,7 +8,8 @@ sys.path.insert(0, str(Path(__file__).parent)) # mathsvg
 project, author, copyright = "yade-blocks", "the authors of yade-blocks", "the authors of yade-blocks, GPL-2.0-or-later"
 html_theme = "alabaster" # Debian's own default
 html_theme_options = {
-	"description": "Deformable polygonal blocks with joints that break, for YADE", "fixed_sidebar": True, "page_width": "1400px", "body_max_width": "none"
+	"description": "Deformable polygonal blocks with joints that break, for YADE", "fixed_sidebar": True, "page_width": "min(1400px, 98%)",
+	"body_max_width": "none"
 }
 extensions = ["myst_parser", "mathsvg"]
 myst_enable_extensions = ["dollarmath"]

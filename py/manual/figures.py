@@ -102,12 +102,48 @@ def bond():
 	return figure
 
 
+def builders():
+	"""What the builders lay out, as they are called in the code."""
+	from yadeblocks.brickwork import englishBond, runningBond, stackBond
+	from yadeblocks.jointsets import JointSet, cut
+	from yadeblocks.layout import Mortared
+	from yadeblocks.rubble import rubble
+	from yadeblocks.specimen import rectangle
+	from yadeblocks.voussoirs import arch
+	brick = dict(length=0.21, height=0.052, joint=0.01)
+	sets = [JointSet("bedding", 15, 0.09), JointSet("cross", -70, 0.13, persistence=0.8, scatter=0.1, seed=3)]
+	shown = [("runningBond, crack=True, openings", runningBond(3.5, 8, crack=True, openings=[(0.33, 0.124, 0.55, 0.372)], **brick)),
+			("stackBond", stackBond(3.5, 8, **brick)), ("englishBond", englishBond(3.5, 8, width=0.1, **brick)),
+			("Mortared(runningBond(...), 0.01)", Mortared(runningBond(3.5, 8, **brick), 0.01)),
+			("rubble, flatness=1.5, Mortared", Mortared(rubble(rectangle(0, 0, 0.77, 0.496), 0.11, flatness=1.5), 0.012)),
+			("arch", arch(radius=0.42, thickness=0.1, count=15, chords=3)),
+			("cut by two JointSets and a crack", cut(rectangle(0, 0, 0.77, 0.496), sets, cracks={"fault": [(0, 0.33), (0.3, 0.28), (0.77, 0.07)]}))]
+	figure = _figure(7.2, 2.9)
+	for number, (name, layout) in enumerate(shown):
+		axes = figure.add_axes((0.01 + 0.25 * (number % 4), 0.5 - 0.49 * (number // 4), 0.23, 0.43))
+		stones = getattr(layout, "blocks", layout)
+		if stones is not layout:
+			axes.add_patch(Polygon(rectangle(*_bounds([ring for ring, _ in layout.mortar])), facecolor="#F6F3EA", edgecolor="none"))
+		tones = {"whole": _tone, "half": _other, "part": "#E3DDEA"}
+		for ring, kind in zip(stones.outlines, stones.kinds):
+			axes.add_patch(Polygon(ring, facecolor=tones.get(kind, _tone), edgecolor=_grey, linewidth=0.7))
+		x0, y0, x1, y1 = stones.bounds
+		_plain(axes, (x0 - 0.01, x1 + 0.01), (y0 - 0.01, y1 + 0.01))
+		axes.set_title(name, fontsize=7)
+	return figure
+
+
+def _bounds(rings):
+	points = np.vstack(rings)
+	return (*points.min(axis=0), *points.max(axis=0))
+
+
 def write(folder):
 	"""All figures."""
 	folder = Path(folder)
 	folder.mkdir(parents=True, exist_ok=True)
 	with rc_context({"font.size": 10, "mathtext.fontset": "dejavuserif", "svg.hashsalt": "manual"}):
-		for draw in (joint, law, bond):
+		for draw in (joint, law, bond, builders):
 			draw().savefig(folder / f"{draw.__name__}.svg", metadata={"Date": None})
 
 

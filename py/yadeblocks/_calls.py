@@ -40,11 +40,12 @@ def door(*numbers, **kinds):
 		if missing: raise ValueError(f"{name} has no arguments {missing}")
 		others = any(p.kind == p.VAR_KEYWORD for p in own)
 		method = len(own) < len(inspect.signature(function).parameters)
+		many = any(p.kind == p.VAR_POSITIONAL for p in own)
 
 		@functools.wraps(function)
 		def call(*given, **named):
 			known = {word: value for word, value in named.items() if not others or word in {word for word, _, _ in parameters}}
-			said = _said(name, parameters, given[method:], known)
+			said = _said(name, parameters, given[method:method + len(parameters)] if many else given[method:], known)
 			if said: raise said
 			return function(*given, **named)
 

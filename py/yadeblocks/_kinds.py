@@ -123,8 +123,8 @@ def wordsOf(kind):
 
 
 def wrong(name, value, kind, where=""):
-	"""The error to raise where the value of this name is not of a kind, or None: TypeError, or ValueError where the type is right (a number that is not finite,
-	say). where: what else is said, at the end."""
+	"""The error to raise where the value of this name is not of a kind, or None: TypeError, or ValueError where the type is right (a number that is not
+	finite, say). where: what else is said, at the end."""
 	if fits(value, kind): return None
 	typeIsRight = kinds[kind].type(value)
 	rule = wordsOf("float" if kind in ("finite", "notNegative") and not typeIsRight else kind)

@@ -204,6 +204,8 @@ class BlocksExport:
 @door(folder='file')
 def writeStates(folder, *states):
 	"""Both collections at once, of these States."""
+	for state in states:
+		if not isinstance(state, State): raise TypeError(f"writeStates.states must be States, and one is {state!r}")
 	export = BlocksExport(folder)
 	for state in states:
 		export.add(state)

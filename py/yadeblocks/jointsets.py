@@ -16,8 +16,8 @@ from .layout import Layout, joinSmall, _shapely
 
 #: Parallel joints. dip: angle of the traces with the x axis, counter-clockwise [degrees]; spacing: normal distance [m]; persistence: share of a trace that is
 #: joint, the rest is rock; length: mean length of the joints in a trace that is not persistent [m], 0: three spacings; scatter: standard deviation of spacing
-#: and lengths by their means (a lognormal law) and of the dip by a radian; seed: of the random numbers; through: a point on the first trace [m], or whole spacings from it
-#: where it is beyond the polygon.
+#: and lengths by their means (a lognormal law) and of the dip by a radian; seed: of the random numbers; through: a point on the first trace [m], or
+#: whole spacings from it where it is beyond the polygon.
 JointSet = namedtuple('JointSet', 'name dip spacing persistence length scatter seed through', defaults=(1.0, 0.0, 0.0, 1, (0.0, 0.0)))
 
 _most = 100000 # so many joints of a set at most
@@ -52,7 +52,8 @@ def cut(outline, sets=(), cracks={}, holes=(), least=0.0):
 		points = np.asarray(points, float)
 		if len(points) < 2 or not np.hypot(*np.diff(points, axis=0).T).all():
 			raise ValueError(f'cut.cracks: {name!r} must have at least two points, each away from the one before, got {shown(points.tolist())}')
-		if not shapely.geometry.LineString(points).intersects(region): raise ValueError(f'cut.cracks: {name!r} must reach the polygon, got {shown(points.tolist())}')
+		if not shapely.geometry.LineString(points).intersects(region):
+			raise ValueError(f'cut.cracks: {name!r} must reach the polygon, got {shown(points.tolist())}')
 		traces[name] = list(np.stack([points[:-1], points[1:]], axis=1))
 	lines = [shapely.geometry.LineString(trace) for of in traces.values() for trace in of]
 	inside = [part for line in lines for part in _lines(line.intersection(region))]
@@ -76,7 +77,8 @@ def _tracesOf(joints, bounds):
 	for name, value, fulfilled, rule in (('spacing', joints.spacing, joints.spacing > 0,
 						'be positive'), ('persistence', joints.persistence, 0 < joints.persistence <= 1,
 									'lie in (0, 1]'), ('length', joints.length, joints.length >= 0, 'not be negative'),
-						('scatter', joints.scatter, 0 <= joints.scatter < 1, 'lie in [0, 1)'), ('seed', joints.seed, joints.seed >= 0, 'not be negative')):
+						('scatter', joints.scatter, 0 <= joints.scatter < 1,
+							'lie in [0, 1)'), ('seed', joints.seed, joints.seed >= 0, 'not be negative')):
 		if not fulfilled: raise ValueError(f'JointSet.{name} must {rule}, got {value!r} in {joints.name!r}')
 	random = np.random.default_rng(int(joints.seed))
 	vary = lambda mean: mean if not joints.scatter else mean * random.lognormal(-np.log1p(joints.scatter**2) / 2, np.log1p(joints.scatter**2)**0.5)
@@ -88,7 +90,8 @@ def _tracesOf(joints, bounds):
 	middle = (corners.mean(axis=0) - through) @ along
 	joint = joints.length or 3 * joints.spacing
 	count = np.ptp(far) / joints.spacing * (1 if joints.persistence == 1 else 1 + 2 * reach * joints.persistence / joint)
-	if count > _most: raise ValueError(f'JointSet.spacing and length must be so large that there are {_most} joints at most, got {count:.3g} in {joints.name!r}')
+	if count > _most:
+		raise ValueError(f'JointSet.spacing and length must be so large that there are {_most} joints at most, got {count:.3g} in {joints.name!r}')
 	start = np.clip(0.0, joints.spacing * np.floor(far.min() / joints.spacing), joints.spacing * np.ceil(far.max() / joints.spacing))
 	above, below = [start], [start]
 	while above[-1] < far.max():

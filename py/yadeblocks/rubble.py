@@ -20,9 +20,10 @@ def rubble(outline, size, seed=1, lloyd=2, flatness=1.0, holes=()):
 	flatness: mean width by height of the stones, 2 for flat ones as they are laid. Stones that a hole or a corner cuts in two become two;
 	what is less than a twentieth of the mean joins a neighbour.
 	Errors: ValueError, and TypeError for what is no number or polygon, which name the argument, the rule and the value."""
-	for name, value, fulfilled, rule in (('size', size, size > 0,
-						'be positive'), ('lloyd', lloyd, lloyd >= 0 and lloyd == int(lloyd), 'be a whole number >= 0'),
-						('flatness', flatness, flatness > 0, 'be positive'), ('seed', seed, seed >= 0 and seed == int(seed), 'be a whole number >= 0')):
+	for name, value, fulfilled, rule in (('size', size, size > 0, 'be positive'),
+						('lloyd', lloyd, lloyd >= 0
+							and lloyd == int(lloyd), 'be a whole number >= 0'), ('flatness', flatness, flatness > 0, 'be positive'),
+						('seed', seed, seed >= 0 and seed == int(seed), 'be a whole number >= 0')):
 		if not fulfilled: raise ValueError(f'rubble.{name} must {rule}, got {value!r}')
 	shapely = _shapely()
 	region = shapely.geometry.Polygon(outline, holes)

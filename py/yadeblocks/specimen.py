@@ -26,7 +26,9 @@ def nodesWhere(model, rule, label=None):
 	x, y = model.reference.T
 	chosen = np.array(rule(x, y))
 	if chosen.dtype != bool or chosen.shape != x.shape:
-		raise ValueError('nodesWhere.rule must return True or False for each of %d grid points, got an array of %s, %r' % (len(x), chosen.dtype, chosen.shape))
+		raise ValueError(
+			'nodesWhere.rule must return True or False for each of %d grid points, got an array of %s, %r' % (len(x), chosen.dtype, chosen.shape)
+		)
 	if label is not None: chosen &= np.repeat(blocksOf(model, label), np.diff(model.firstNode))
 	if not chosen.any(): raise ValueError('nodesWhere: no grid point is chosen by the rule')
 	return np.flatnonzero(chosen)

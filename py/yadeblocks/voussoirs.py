@@ -18,7 +18,8 @@ def arch(radius, thickness, count, angle=math.pi, chords=1, centre=(0.0, 0.0)):
 	"""A circular arch, symmetric about the vertical through its centre -> layout.Layout with blocks of the kind 'voussoir'.
 
 	radius: of the centre line [m]; thickness: radial [m]; count: of voussoirs; angle: of opening [rad], pi for a semicircle; chords: straight
-	pieces of each voussoir's inner and outer side, each over a right angle at most; centre [m]. notes: `joints`, the (count + 1, 2, 2) inner and outer ends of all joints, springings included [m]."""
+	pieces of each voussoir's inner and outer side, each over a right angle at most; centre [m]. notes: `joints`, the (count + 1, 2, 2) inner and outer
+	ends of all joints, springings included [m]."""
 	for name, value, fulfilled, rule in (('radius', radius, radius > 0,
 						'be positive'), ('thickness', thickness, 0 < thickness < 2 * radius, 'lie in (0, 2 radius)'),
 						('count', count, count >= 1 and count == int(count),
@@ -26,7 +27,9 @@ def arch(radius, thickness, count, angle=math.pi, chords=1, centre=(0.0, 0.0)):
 						('chords', chords, chords >= 1 and chords == int(chords), 'be a whole number > 0')):
 		if not fulfilled: raise ValueError(f'arch.{name} must {rule}, got {value!r}')
 	if angle > count * chords * math.pi / 2:
-		raise ValueError(f'arch.chords must be so many that each spans a right angle at most, got {chords!r} for {count!r} voussoirs over {angle!r} rad')
+		raise ValueError(
+			f'arch.chords must be so many that each spans a right angle at most, got {chords!r} for {count!r} voussoirs over {angle!r} rad'
+		)
 	count, chords = int(count), int(chords)
 	at = np.pi / 2 + angle * (np.arange(count * chords + 1) / (count * chords) - 0.5)
 	unit = np.column_stack([np.cos(at), np.sin(at)])

@@ -2,6 +2,9 @@
 """Studies of many runs, of scenarios whose answers are known: an engine that answers at once stands in for the workers."""
 import json
 import math
+import os
+import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -10,7 +13,8 @@ import pytest
 
 from yadeblocks import curves, scenario
 
-sys.path.insert(0, str(Path(curves.__file__).parents[2] / "scripts"))
+house = Path(curves.__file__).resolve().parents[2]
+sys.path.insert(0, str(house / "scripts"))
 from laboratory import calibrate, command, ensemble, limit, sensitivity, statistics
 
 
@@ -342,3 +346,33 @@ def test_badInputSaysWhatIsWrong(studied, kind, words, said):
 def test_unknownScenario(studied):
 	with pytest.raises(command.StudyError, match="there is no scenario wood"):
 		studied(ensemble, lambda words: {}, name="wood")
+
+
+def commandsOfTheManual():
+	"""The studies that the manual starts: kind, scenario and keys."""
+	page = (house / "py/manual/runs.md").read_text()
+	block = re.search(r"^```sh\n(.*?)^```$", page, re.M | re.S).group(1)
+	return [line.split()[1:] for line in block.splitlines() if line.startswith("scripts/study.sh")]
+
+
+@pytest.mark.parametrize("words", commandsOfTheManual(), ids=" ".join)
+def test_commandsOfTheManual(studied, words, tmp_path):
+	"""Each is carried out, with runs that a stand-in answers; the keys that the runs get are the scenario's."""
+	kind, name, *keys = words
+	(tmp_path / f"scripts/{name}.py").write_text("")
+	asked = subprocess.run([sys.executable, "-m", "yadeblocks.help", house / f"scripts/{name}.py"], capture_output=True, text=True,
+				env={**os.environ, "PYTHONPATH": str(house / "py")})
+	known = set(re.findall(r"^  (\w+)=", asked.stdout, re.M))
+
+	def answer(words):
+		assert set(words) <= {*known, "seed", "seeds", "tag"}, set(words) - known
+		if kind == "limit": return slowSteps(2)({"steps": 1000, "alpha": 0.5, **words})
+		strength = 1 + words.get("cohesion", 1e6) / 2e6 + 0.01 * noise(words, name)
+		return {
+			"peak_tensile_stress" if name == "tension" else "peak_shear_stress": strength,
+			"residual_shear_stress": words.get("residualFriction", 35) / 96
+		}
+
+	made, runs, folder = studied({"ensemble": ensemble, "sensitivity": sensitivity, "calibrate": calibrate, "limit": limit}[kind], answer, *keys, name=name)
+	assert runs and made["kind"] == kind
+	if kind == "calibrate": assert (folder / "joints.json").exists()

@@ -140,12 +140,14 @@ forScripts = (
 #: What has no door: parts of others, and what is given to them by these.
 inner = {
 	'export': 'pairName pointNames jointNames pointsOf Present blockOutlines contactLines principalStresses jointMotion freeContactLines zoneStrains '
-	'outOfPlaneStress vonMises', 'engines': 'contactEngines find addBehindForces', 'layout': 'area counterClockwise joinSmall Placed', 'pace': 'strainEnergy',
-	'pictures': 'drawSheets drawFilm', 'recording': 'runner known call Recorder', 'snapshot': 'poissonOf reactionsOf', 'specimen': 'addCells'
+	'outOfPlaneStress vonMises', 'engines': 'contactEngines find addBehindForces', 'layout': 'area counterClockwise joinSmall Placed',
+	'pace': 'strainEnergy', 'pictures': 'drawSheets drawFilm', 'recording': 'runner known call Recorder', 'snapshot': 'poissonOf reactionsOf',
+	'specimen': 'addCells'
 }
 #: Arguments that may be anything, or are looked at within.
 free = {
-	'Layout.addTo.region', 'Pace.stream', 'Motion.values', 'Gauge.axis', 'drawCurve.labels', 'Placed.bond.properties', 'Mortared.addTo.voronoi', 'group.nodes'
+	'Layout.addTo.region', 'Pace.stream', 'Motion.values', 'Gauge.axis', 'drawCurve.labels', 'Placed.bond.properties', 'Mortared.addTo.voronoi',
+	'group.nodes'
 }
 
 
@@ -164,7 +166,9 @@ def test_everyFunctionHasADoor():
 	assert {name for _, name, _ in pkgutil.iter_modules(importlib.import_module('yadeblocks').__path__)} >= set(forScripts)
 	without = [name for name, function in doors() if len(inspect.signature(function).parameters) and not hasattr(function, 'door')]
 	assert without == []
-	kinds = {f"{function.__qualname__.removesuffix('.__init__')}.{word}": kind for _, function in doors() for word, kind, _ in getattr(function, 'door', ())}
+	kinds = {
+		f"{function.__qualname__.removesuffix('.__init__')}.{word}": kind for _, function in doors() for word, kind, _ in getattr(function, 'door', ())
+	}
 	assert {name for name, kind in kinds.items() if not kind} <= free and {kind for kind in kinds.values() if kind} <= set(_kinds.kinds)
 	assert len(kinds) > 100
 
@@ -195,49 +199,71 @@ class _Stands:
 
 
 _right = {
-	**dict.fromkeys(('finite', 'float', 'whole', 'notNegative'), 1), 'flag': False, 'str': 'a', 'path': 'a', 'file': 'a', 'point': (0, 1), 'numbers': [0, 1],
-	'points': [(0, 1)], 'polygon': box, 'polygons': [], 'box': (0, 0, 1, 1), 'boxes': [], 'sequence': [], 'mapping': {}, 'function': len,
+	**dict.fromkeys(('finite', 'float', 'whole', 'notNegative'), 1), 'flag': False, 'str': 'a', 'path': 'a', 'file': 'a', 'point': (0, 1),
+	'numbers': [0, 1], 'points': [(0, 1)], 'polygon': box, 'polygons': [], 'box': (0, 0, 1, 1), 'boxes': [], 'sequence': [], 'mapping': {}, 'function': len,
 	'functionOfPlace': len, 'nodes': [0], 'joints': 'a', **dict.fromkeys(('model', 'layout', 'film', 'table'), _Stands()), 'models': []
 }
 
 
 @pytest.mark.parametrize(
 	'call, error, words',
-	[(lambda m: picturesfields.drawField(), TypeError, 'drawField needs path and model and what: drawField(path, model, what, '),
+	[
+		(lambda m: picturesfields.drawField(), TypeError, 'drawField needs path and model and what: drawField(path, model, what, '),
 		(lambda m: picturesfields.drawField(3, m, 'u'), TypeError, 'drawField.path must be a path or a binary file, got 3'),
 		(lambda m: picturesfields.drawField('a.png', 3, 'u'), TypeError, 'drawField.model must be a BlockModel or a Snapshot of one, got 3'),
 		(lambda m: picturesfields.drawField('a.png', m, 'u', window=3), TypeError, 'drawField.window must be a rectangle (x0, y0, x1, y1), got 3'),
-		(lambda m: picturesfields.drawField('a.png', m, 'u', window=(1, 0, 0, 1)), ValueError, 'window must have x0 < x1 and y0 < y1, got (1, 0, 0, 1)'),
+		(
+			lambda m: picturesfields.drawField('a.png', m, 'u', window=(1, 0, 0, 1)), ValueError,
+			'window must have x0 < x1 and y0 < y1, got (1, 0, 0, 1)'
+		),
 		(
 			lambda m: picturesfields.drawField('a.png', m, 'u', magnification=-1), ValueError,
 			'drawField.magnification must be a finite number, and not negative, got -1'
-		), (lambda m: picturesfields.drawField('a.png', m, 'ux', magnification='x'), TypeError, "drawField.magnification must be a number, got 'x'"),
+		),
+		(lambda m: picturesfields.drawField('a.png', m, 'ux', magnification='x'), TypeError, "drawField.magnification must be a number, got 'x'"),
 		(lambda m: picturesfields.drawField('a.png', m, 'w'), ValueError, "what must be one of u, ux, uy, sxx"),
-		(lambda m: pictures.drawCracks('a.png', m, joints=3.5), TypeError, 'drawCracks.joints must be a name of joints, a list of names or a list of indices'),
+		(
+			lambda m: pictures.drawCracks('a.png', m, joints=3.5), TypeError,
+			'drawCracks.joints must be a name of joints, a list of names or a list of indices'
+		),
 		(lambda m: pictures.drawCracks('a.png', m, joints=[10**6]), ValueError, 'joints: indices must lie in [0, '),
 		(lambda m: pictures.drawCurve('a.png', 3, 'x', 'y'), TypeError, 'drawCurve.curves must be a DataFrame, got 3'),
-		(
-			lambda m: picturesfields.drawMovie('a.avi', [snapshot.Snapshot(m)]), ValueError, "path's ending must be one of .gif, .mp4, got '.avi'"
-		), (lambda m: picturesfields.drawMovie('a.gif', [3]), TypeError, 'drawMovie.states must be a list of Snapshots, got [3]'),
+		(lambda m: picturesfields.drawMovie('a.avi', [snapshot.Snapshot(m)]), ValueError, "path's ending must be one of .gif, .mp4, got '.avi'"),
+		(lambda m: picturesfields.drawMovie('a.gif', [3]), TypeError, 'drawMovie.states must be a list of Snapshots, got [3]'),
 		(lambda m: snapshot.Film(m, frames=1.5), ValueError, 'Film.frames must be a whole number, got 1.5'),
 		(lambda m: platen.Platen(m, 0, 3), TypeError, 'Platen.velocity must be a pair of finite numbers (x, y), got 3'),
 		(lambda m: nodesWhere(m, lambda x, y: x), ValueError, 'nodesWhere.rule must return True or False for each of '),
 		(lambda m: brickwork.runningBond(math.inf, 2, 1, 1), ValueError, 'runningBond.bricks must be a finite number, got inf'), # it ran for ever
 		(lambda m: brickwork.runningBond(2, 2, 1, 1, crack='yes'), TypeError, "brickwork.crack must be True or False, got 'yes'"),
-		(lambda m: brickwork.runningBond(2, 2, 1, 1, openings=(0, 0, 1, 1)), TypeError, 'brickwork.openings must be a list of rectangles (x0, y0, x1, y1), '),
+		(
+			lambda m: brickwork.runningBond(2, 2, 1, 1, openings=(0, 0, 1, 1)), TypeError,
+			'brickwork.openings must be a list of rectangles (x0, y0, x1, y1), '
+		),
 		(lambda m: brickwork.runningBond(2, 2, 1, 1, openings=[(0, 0, 2, 2)]), ValueError, 'brickwork.openings must leave something of the wall, got '),
-		(lambda m: brickwork.brickwork(1, 2, 0.1, [5]), TypeError, 'brickwork.pattern must be a list of pairs of numbers, length and shift of a course, got [5]'),
+		(
+			lambda m: brickwork.brickwork(1, 2, 0.1, [5]), TypeError,
+			'brickwork.pattern must be a list of pairs of numbers, length and shift of a course, got [5]'
+		),
 		(lambda m: voussoirs.arch(1, 0.1, 10, centre=3), TypeError, 'arch.centre must be a pair of finite numbers (x, y), got 3'),
-		(lambda m: voussoirs.arch(1, 0.1, 1, angle=3), ValueError, 'arch.chords must be so many that each spans a right angle at most, got 1 for 1 voussoirs'),
+		(
+			lambda m: voussoirs.arch(1, 0.1, 1, angle=3), ValueError,
+			'arch.chords must be so many that each spans a right angle at most, got 1 for 1 voussoirs'
+		),
 		(lambda m: rubble.rubble(box, 0.2, seed=-1), ValueError, 'rubble.seed must be a whole number >= 0, got -1'),
 		(lambda m: rubble.rubble('box', 0.2), TypeError, "rubble.outline must be a polygon, a list of at least three points (x, y), got 'box'"),
 		(lambda m: rubble.rubble(box, 0.2, holes=3), TypeError, 'rubble.holes must be a list of polygons, '),
 		(lambda m: cut(jointsets.JointSet('a', 20, 1)), TypeError, 'cut.sets must be a list of JointSets, got JointSet('),
 		(lambda m: cut([3]), TypeError, 'cut.sets must be a list of JointSets, and one is 3'),
 		(lambda m: cut([jointsets.JointSet('a', 20, 1, seed=-1)]), ValueError, "JointSet.seed must not be negative, got -1 in 'a'"),
-		(lambda m: cut([jointsets.JointSet('a', 20, 1, through=3)]), TypeError, "JointSet.through must be a pair of finite numbers (x, y), got 3 in 'a'"),
+		(
+			lambda m: cut([jointsets.JointSet('a', 20, 1, through=3)]), TypeError,
+			"JointSet.through must be a pair of finite numbers (x, y), got 3 in 'a'"
+		),
 		(lambda m: cut([jointsets.JointSet(3, 20, 1)]), TypeError, 'JointSet.name must be a text, got 3'),
-		(lambda m: cut([jointsets.JointSet('a', 20, 1e-9)]), ValueError, 'JointSet.spacing and length must be so large that there are 100000 joints at most'),
+		(
+			lambda m: cut([jointsets.JointSet('a', 20, 1e-9)]), ValueError,
+			'JointSet.spacing and length must be so large that there are 100000 joints at most'
+		),
 		(lambda m: cut([], cracks={'f': [(0, 0.5)]}), ValueError, "cut.cracks: 'f' must have at least two points, each away from the one before, got "),
 		(lambda m: cut([], cracks={'f': [(5, 5), (6, 5)]}), ValueError, "cut.cracks: 'f' must reach the polygon, got "),
 		(lambda m: cut([], cracks={'f': 3}), TypeError, "cut.cracks: 'f' must be a list of points (x, y), got 3"),
@@ -247,7 +273,8 @@ _right = {
 		(lambda m: outlines.read('nowhere.dxf'), FileNotFoundError, '[Errno 2] No such file'),
 		(lambda m: m.follow('a', gauges=3), ValueError, 'BlockModel.follow.gauges must be a list of Gauges, got 3'),
 		(lambda m: m.follow('a', gauges=[3]), ValueError, 'BlockModel.follow.gauges must be a list of Gauges, got [3]'),
-		(lambda m: m.follow(2.5), ValueError, 'BlockModel.follow.group must be the name of a group or the index of a rigid block, got 2.5')]
+		(lambda m: m.follow(2.5), ValueError, 'BlockModel.follow.group must be the name of a group or the index of a rigid block, got 2.5')
+	]
 )
 def test_whatFunctionsSay(model, call, error, words):
 	two = BlockModel(thickness=0.05)
@@ -264,10 +291,12 @@ def cut(sets, **more):
 	return jointsets.cut(box, sets, **more)
 
 
-@pytest.mark.parametrize('ending, content, words', [('dxf', b'hello', 'a.dxf cannot be read as DXF: '), ('svg', b'<svg', 'a.svg cannot be read as SVG: '),
-							('csv', b'\xff\xfe\x00', 'a.csv cannot be read as CSV: '),
-							('csv', b'0,0\n1,nan\n1,1', 'line 2 of a.csv must be x,y or x,y,name, got 1,nan'),
-							('csv', b'0,0,left\n1,0,left', 'polygon 1 of a.csv (left): an outline must be a polygon')])
+@pytest.mark.parametrize(
+	'ending, content, words', [('dxf', b'hello', 'a.dxf cannot be read as DXF: '), ('svg', b'<svg', 'a.svg cannot be read as SVG: '),
+					('csv', b'\xff\xfe\x00', 'a.csv cannot be read as CSV: '),
+					('csv', b'0,0\n1,nan\n1,1', 'line 2 of a.csv must be x,y or x,y,name, got 1,nan'),
+					('csv', b'0,0,left\n1,0,left', 'polygon 1 of a.csv (left): an outline must be a polygon')]
+)
 def test_filesThatAreNoDrawings(ending, content, words, tmp_path):
 	path = tmp_path / f'a.{ending}'
 	path.write_bytes(content)

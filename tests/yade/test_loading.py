@@ -138,7 +138,7 @@ def test_approachGrowsAsItIsTold():
 	approach(0.8, 1)
 	assert approach.speed == pytest.approx(0.15)
 	for growth in 1, 0.5, float('nan'):
-		with pytest.raises(ValueError, match='growth.*above 1'):
+		with pytest.raises(ValueError, match='growth.*(above 1|finite)'):
 			loading.Approach(m, 'top', slow=0.1, growth=growth)
 
 

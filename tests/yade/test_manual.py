@@ -1,5 +1,6 @@
 # yade-blocks, GPL-2.0-or-later
 """The manual: every example runs; all code is theirs, or a command that exists; formulas can be drawn; links lead somewhere; docstrings are whole."""
+import json
 import os
 import re
 import shutil
@@ -12,6 +13,7 @@ import matplotlib.image
 import pytest
 
 from scenes import *
+from yadeblocks import help
 
 house = Path(__file__).resolve().parents[2]
 pages = sorted((house / 'py/manual').glob('*.md'))
@@ -46,13 +48,36 @@ def test_examplesAreShortAndShown():
 	shown = [words for page in pages for words, _ in blocks(page, '{literalinclude}')]
 	assert sorted(shown) == sorted(f'examples/{path.name}' for path in examples)
 	assert all(len(path.read_text().splitlines()) <= 65 for path in examples)
-	others = {name for page in pages for name in re.findall(r'^```(\S+)', page.read_text(), re.M)}
-	assert others <= {'sh', '{literalinclude}', '{toctree}'}
+	fences = [line for page in pages for line in page.read_text().splitlines() if line.startswith('```')]
+	assert {line.split()[0] for line in fences[::2]} <= {'```sh', '```{literalinclude}', '```{toctree}'} and set(fences[1::2]) == {'```'}
+
+
+#: What makes a command of the manual short: keys in place of its own, or besides them.
+shorter = {
+	'wall': 'steps=1000 stroke=5e-5 crack=false', 'drywall': 'precision=0.09 most=20000', 'arch': 'precision=0.09', 'tension': 'steps=2000',
+	'compression': 'steps=1000 unitSize=0.03 mortarSize=0.01', 'shear': 'steps=2000'
+}
+#: What is run elsewhere: by ctest itself, by test_help, by test_studies (with runs that a stand-in answers).
+elsewhere = ('scripts/test.sh', 'scripts/verification.sh', 'scripts/study.sh', 'scripts/run.sh')
+
+
+def commands():
+	"""The scenarios that the manual and the README start, with their keys."""
+	for page in (*pages, house / 'README.md'):
+		for _, block in blocks(page, 'sh'):
+			for line in block.splitlines():
+				words = line.partition('#')[0].split()
+				if not words or words[0] in elsewhere and len(words) == 1 or words[0] == 'scripts/study.sh': continue
+				assert words[0] == 'scripts/run.sh', line
+				yield words[1:]
+
+
+given = sorted({tuple(words) for words in commands() if not words[0].startswith('examples/')})
 
 
 def test_commandsExist():
 	lines = [line.split() for page in (*pages, house / 'README.md') for _, block in blocks(page, 'sh') for line in block.splitlines() if line.strip()]
-	lines = [words[:words.index('#')] if '#' in words else words for words in lines]
+	lines = [words for words in (words[:words.index('#')] if '#' in words else words for words in lines) if words]
 	scripts = sorted({house / 'scripts' / f'{words[1]}.py' for words in lines if words[0] == 'scripts/run.sh' and len(words) > 1})
 	assert len(lines) > 15 and all((house / words[0]).exists() for words in lines) and all(script.exists() for script in scripts)
 	run = subprocess.run(['/usr/bin/python3', '-m', 'yadeblocks.help', *scripts], capture_output=True, text=True,
@@ -126,3 +151,30 @@ def test_classPages(tmp_path):
 		assert not re.search(r':y\w+:', text), name
 		assert all(target in written for target in re.findall(r':doc:`[^`]*<(\w+)>`', text)), name
 	assert 'Normal stiffness JKn [Pa/m].' in written['JointMat'] and 'Default: ``0``' in written['JointMat']
+
+
+@pytest.mark.parametrize('words', given, ids=' '.join)
+def test_commandsRun(words, tmp_path, monkeypatch, capsys):
+	"""Each scenario that a page starts, with the page's keys; some others make it short."""
+	name, *keys = words
+	if 'help' in keys: # as scripts/run.sh does
+		help.explain(house / f'scripts/{name}.py')
+		assert f'scripts/run.sh {name} [key=value ...]' in capsys.readouterr().out
+		return
+	own = [word for word in keys if not word.endswith('.json')] # a file that a study leaves
+	more = [
+		word for word in f'{shorter.get(name, "")} vtk=false sheets=false'.split()
+		if word.partition('=')[0] not in {key.partition('=')[0] for key in own}
+	]
+	script = house / f'scripts/{name}.py'
+	known = re.findall(r"'?(vtk|sheets)'?\b", script.read_text())
+	monkeypatch.chdir(tmp_path)
+	monkeypatch.setattr(
+		sys, 'argv',
+		[str(script), *own, *(word for word in more if word.partition('=')[0] not in ('vtk', 'sheets') or word.partition('=')[0] in known)]
+	)
+	O.reset()
+	with pytest.MonkeyPatch.context() as patch:
+		patch.syspath_prepend(str(script.parent))
+		exec(compile(script.read_text(), str(script), 'exec'), {'__name__': '__main__', '__file__': str(script)})
+	assert json.loads((tmp_path / 'out' / name / 'result.json').read_text())['complete']
