@@ -25,7 +25,7 @@ import numpy as np
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import brickwork, curves, loading, pictures, scenario
-from yadeblocks.engines import loopList
+from yadeblocks.engines import find, loopList
 from yadeblocks.export import writeFilm
 from yadeblocks.layout import Mortared
 from yadeblocks.pace import Pace
@@ -49,9 +49,13 @@ source = 'Raijmakers and Vermeltfoort 1992, as digitised; +- 8; another reading 
 
 p = scenario.parameters({
 	**scenario.usualParameters(
-		threads=1, tag='', seed=1, seeds=1, checkpoint=0., resume=False, damping='local', alpha=0.4, stroke=4e-3, steps=80000, sigma=0.3e6, vtk=True,
-		frames=10, movie='none', sheets=True
-	), 'detail': Key('interface', 'mortar joints without thickness, or mortar of Voronoi blocks',
+		threads=1, tag='', seed=1, seeds=1, checkpoint=0., resume=False, damping='local', sigma=0.3e6, vtk=True, frames=10, movie='none', sheets=True
+	), 'alpha': Key(
+		-1., 'coefficient of local damping while the wall is driven (-1: 0.4, or 0.1 with mortar in detail)', '',
+		(lambda a: a == -1 or 0 <= a < 1, 'must lie in [0, 1), or be -1')
+	), 'stroke': Key(0., 'path of the top at which the run ends (0: 4e-3, or 2e-3 with mortar in detail)', 'm', scenario.notNegative),
+	'steps': Key(0, 'time steps for the whole stroke (0: 20,000 a millimetre)', '', (lambda n: n == 0 or n >= 1000, 'must be at least 1000, or 0')),
+	'detail': Key('interface', 'mortar joints without thickness, or mortar of Voronoi blocks',
 				rule=('interface', 'mortar')), 'crack': Key(True, 'possible cracks in the middle of the bricks'),
 	'crackStiffness': Key(1e13, 'stiffness of these', 'Pa/m', scenario.positive), 'cap': Key(True, 'joints can be crushed, with detail=interface'),
 	'held': Key(True, 'the upper course is held at its height, or goes on carrying the precompression'),
@@ -59,6 +63,9 @@ p = scenario.parameters({
 	'size': Key(6e-3, 'size of the mortar\'s blocks, sqrt(area), with detail=mortar', 'm',
 			(lambda s: 0 < s < gap, 'must be positive and below a joint')), **scenario.usualParameters(lloyd=2, merge=0.1)
 })
+if p.alpha == -1 and p.damping == 'local': p.alpha = 0.4 if p.detail == 'interface' else 0.1
+if p.stroke == 0: p.stroke = 4e-3 if p.detail == 'interface' else 2e-3
+if p.steps == 0: p.steps = max(1000, round(2e7 * p.stroke))
 dt, pressSteps = 1e-4, 2000 # [s]; masses are scaled to suit
 width, rise = bricks * (length + gap), courses * (height + gap)
 load = p.sigma * width * thickness
@@ -92,9 +99,12 @@ def build(seed):
 	model.push('press', top, 'y', force=-load, rampTime=pressSteps * dt)
 	model.drive('side', top, 'x')
 	model.insert()
-	O.dt, O.engines = dt, loopList(contact=True, damping=p.damping, alpha=p.alpha)
+	O.dt, O.engines = dt, loopList(contact=True, alpha=0.4)
 	O.run(1, True)
 	loading.settle(model, floor=1e-2 * load)
+	motion = find('BlockMotion') # from now on all that moves steadily is held back by alpha times the unbalanced forces: the base feels less than the top
+	motion.damping = p.damping
+	if p.damping == 'local': motion.alpha = p.alpha
 	if p.held:
 		model.release('press')
 		model.velocity[top] = 0

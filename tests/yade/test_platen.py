@@ -87,6 +87,13 @@ def test_servoOfAPlaten():
 	assert min(seen) == least and max(seen[20:]) > 1.05 * least
 
 
+def test_servoThatSeesNoForceThatCounts():
+	"""Unbalanced forces by a floor far above all that there is: never slower."""
+	model, platen = between((0, -2e-3), servo=dict(target=2e-3, floor=1e12))
+	O.run(300, True)
+	assert platen.throttle == 1 and model.unbalancedRatio(floor=10) > 2e-3
+
+
 @pytest.mark.parametrize(
 	'arguments, words', [(dict(velocity=(0, np.nan)), r'Platen.velocity must be a pair of finite numbers \(x, y\), got \(0, nan\)'),
 				(dict(rampTime=-1), 'Platen.rampTime must not be negative'),
