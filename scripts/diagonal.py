@@ -96,8 +96,9 @@ with Session(p) as session:
 		load = record['load']
 		strength, peak = curves.peak(record['path'], load)
 		whole = (record['damage'] < 1e-9) & (load > 0.05 * strength)
-		run.add('diagonal_shear_strength', 'MPa', 0.707 * strength / area / 1e6)
-		run.add('share_of_the_bound', '1', 0.707 * strength / area / (p.cohesion / (1 - p.friction)))
+		bound = p.cohesion / (1 - p.friction)
+		run.add('diagonal_shear_strength', 'MPa', 0.707 * strength / area / 1e6, None, 'no measurement; at most %.3g, one bed joint sliding at once' % (bound / 1e6))
+		run.add('share_of_the_bound', '1', 0.707 * strength / area / bound)
 		run.add('path_at_peak', 'mm', 1e3 * record['path'][peak])
 		elastic = np.mean(record['centre'][whole] / load[whole]) * area if whole.any() else np.nan
 		run.add('centre_tension_by_load', '1', elastic, 0.5, 'RILEM LUMB6, from Frocht 1931, without joints')

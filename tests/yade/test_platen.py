@@ -90,8 +90,11 @@ def test_servoOfAPlaten():
 def test_servoThatSeesNoForceThatCounts():
 	"""Unbalanced forces by a floor far above all that there is: never slower."""
 	model, platen = between((0, -2e-3), servo=dict(target=2e-3, floor=1e12))
-	O.run(300, True)
-	assert platen.throttle == 1 and model.unbalancedRatio(floor=10) > 2e-3
+	ratios = []
+	for _ in range(30):
+		O.run(10, True)
+		ratios.append(model.unbalancedRatio(floor=10))
+	assert platen.throttle == 1 and max(ratios) > 2e-3
 
 
 @pytest.mark.parametrize(
