@@ -141,7 +141,7 @@ def shear(stage, seed):
 		kinetic=model.kineticEnergy
 	)
 	pace = Pace(model, lambda: model.groupForce('side'), lambda: model.groupForce('base', axis='x'), stage.label)
-	if not stage.model: model.setTarget('side', p.stroke / (p.steps * dt), rampTime=0.1 * p.steps * dt)
+	if not stage.model: model.setTarget('side', p.stroke / (p.steps * dt), rampTime=(0.1 if p.detail == 'interface' else 0.25) * p.steps * dt)
 	with Progress(
 		p.steps, lambda: loadingLine(record.last.displacement, record.last.force / (width * thickness), model, pace), label=stage.label
 	) as progress:
@@ -155,6 +155,12 @@ def shear(stage, seed):
 	return model, record, cracks, film
 
 
+def firstPeak(force):
+	"""Index of the highest force before it falls by 5 % for the first time."""
+	fallen = np.flatnonzero(force < 0.95 * np.maximum.accumulate(force))
+	return int(np.argmax(force[:fallen[0] if len(fallen) else len(force)]))
+
+
 # ---- running
 
 with Session(p) as session:
@@ -165,7 +171,10 @@ with Session(p) as session:
 			force, displacement = record['force'], record['displacement']
 			strength, peak = curves.peak(displacement, force)
 			run.add('peak_shear_force', 'kN', strength / 1e3, 57., source)
-			run.add('base_by_top_at_peak', '1', record['base'][peak] / force[peak], 1.0, 'equilibrium: inertia and damping take the rest')
+			first = firstPeak(force)
+			run.add('first_peak_force', 'kN', force[first] / 1e3, 57., source)
+			run.add('displacement_at_first_peak', 'mm', 1e3 * displacement[first], 1.0, 'the digitised curve')
+			run.add('base_by_top_at_first_peak', '1', record['base'][first] / force[first], 1.0, 'equilibrium: inertia and damping take the rest')
 			run.add('displacement_at_peak', 'mm', 1e3 * displacement[peak], 1.0, 'the digitised curve')
 			at = lambda x: np.interp(x, 1e3 * displacement, force) / 1e3
 			for x in (0.2, 2.0, 3.0):
