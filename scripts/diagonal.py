@@ -97,7 +97,10 @@ with Session(p) as session:
 		strength, peak = curves.peak(record['path'], load)
 		whole = (record['damage'] < 1e-9) & (load > 0.05 * strength)
 		bound = p.cohesion / (1 - p.friction)
-		run.add('diagonal_shear_strength', 'MPa', 0.707 * strength / area / 1e6, None, 'no measurement; at most %.3g, one bed joint sliding at once' % (bound / 1e6))
+		run.add(
+			'diagonal_shear_strength', 'MPa', 0.707 * strength / area / 1e6, None,
+			'no measurement; at most %.3g, one bed joint sliding at once' % (bound / 1e6)
+		)
 		run.add('share_of_the_bound', '1', 0.707 * strength / area / bound)
 		run.add('path_at_peak', 'mm', 1e3 * record['path'][peak])
 		elastic = np.mean(record['centre'][whole] / load[whole]) * area if whole.any() else np.nan

@@ -56,7 +56,7 @@ p = scenario.parameters({
 	), 'stroke': Key(0., 'path of the top at which the run ends (0: 4e-3, or 2e-3 with mortar in detail)', 'm', scenario.notNegative),
 	'steps': Key(0, 'time steps for the whole stroke (0: 20,000 a millimetre)', '', (lambda n: n == 0 or n >= 1000, 'must be at least 1000, or 0')),
 	'detail': Key('interface', 'mortar joints without thickness, or mortar of Voronoi blocks',
-				rule=('interface', 'mortar')), 'crack': Key(True, 'possible cracks in the middle of the bricks'),
+			rule=('interface', 'mortar')), 'crack': Key(True, 'possible cracks in the middle of the bricks'),
 	'crackStiffness': Key(1e13, 'stiffness of these', 'Pa/m', scenario.positive), 'cap': Key(True, 'joints can be crushed, with detail=interface'),
 	'held': Key(True, 'the upper course is held at its height, or goes on carrying the precompression'),
 	'zone': Key(0.06, 'size of the zones in bricks', 'm', (lambda s: 0 < s <= length, 'must be positive and at most a brick\'s length')),

@@ -117,7 +117,8 @@ def test_whatIsRightGoesThrough(model):
 	assert str(inspect.signature(BlockModel.follow)).startswith("(self, group, peak=False, drop=0.5, displacement=inf, cracks=2147483647, release='path', ")
 	model.drive('a', np.array([0]), 'x', velocity=np.float64(2)) # numpy's numbers are numbers
 	model.addVoronoi([(2, 0), (3, 0), (3, 1), (2, 1)], 'unit', size=np.float32(0.5), lloyd=np.int64(1))
-	assert loading.Stop(drop=None, displacement=1.).drop is None and brickwork.runningBond(np.int64(2), 2, np.float32(1), 1).counts == {'whole': 3, 'part': 2}
+	assert loading.Stop(drop=None, displacement=1.).drop is None and brickwork.runningBond(np.int64(2), 2, np.float32(1),
+												1).counts == {'whole': 3, 'part': 2}
 	with pytest.raises(ValueError, match='there is a motion group "a" already'): # what the model itself says is left alone
 		model.drive('a', [0], 'x')
 	with pytest.raises(RuntimeError, match='no joints yet'):
