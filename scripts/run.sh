@@ -33,6 +33,7 @@ for argument in "$@"; do
 done
 [[ "$threads" =~ ^[1-9][0-9]*$ ]] || { echo "threads must be a whole number > 0, got '$threads'" >&2; exit 2; }
 
+[ $# -eq 0 ] || about "scripts/$name.py" "$@" # what is wrong with the keys is said before minutes of building
 more="$(sed -n 's/^# needs: //p' "scripts/$name.py")" # Debian packages that only this scenario wants
 scripts/setup.sh --brief $more
 

@@ -3,6 +3,7 @@
 
 	python3 -m yadeblocks.help scripts                # one line for each scenario
 	python3 -m yadeblocks.help scripts/shear.py       # what it says of itself, and its keys
+	python3 -m yadeblocks.help scripts/shear.py size=0.003    # nothing, or what is wrong with these keys, and code 2
 """
 import ast
 import runpy
@@ -33,8 +34,32 @@ def explain(path):
 	path = Path(path)
 	print(_words(path) or path.stem, end="\n\n")
 	if not _hasParameters(path): return print("It has no keys.")
+	_runToItsKeys(path, "help")
+
+
+def check(path, *words):
+	"""Ends with code 2 and a sentence on stderr where a scenario refuses these words, key=value. Scripts without keys, and those that want YADE itself before
+	them, are not looked into."""
+	if not _hasParameters(Path(path)): return
+	from . import scenario
+	parameters = scenario.parameters
+
+	def only(*given, **named):
+		parameters(*given, **named)
+		sys.exit(0)
+
+	scenario.parameters = only
+	try:
+		_runToItsKeys(path, *words)
+	except Exception: # a script of one's own that wants more of YADE before its keys: it will say itself what is wrong
+		return
+	finally:
+		scenario.parameters = parameters
+
+
+def _runToItsKeys(path, *words):
 	before = sys.argv, sys.modules.get("yade")
-	sys.argv, sys.modules["yade"] = [str(path), "help"], _Nothing("yade")
+	sys.argv, sys.modules["yade"] = [str(path), *words], _Nothing("yade")
 	try:
 		runpy.run_path(str(path), run_name="__main__")
 	except SystemExit as end:
@@ -62,6 +87,8 @@ def _hasParameters(path):
 
 
 if __name__ == "__main__":
-	for place in map(Path, sys.argv[1:]):
+	keys = [word for word in sys.argv[1:] if "=" in word]
+	for place in map(Path, (word for word in sys.argv[1:] if "=" not in word)):
 		if place.is_dir(): print(listing(place))
+		elif keys: check(place, *keys)
 		else: explain(place)

@@ -44,11 +44,30 @@ def test_helpOfAScenarioAnywhereInTheLine():
 	assert run.returncode == 0 and run.stdout.startswith("Shear of a masonry couplet") and "  steps=32000  " in run.stdout
 
 
+@pytest.mark.parametrize("words, said", [(["detial=mortar"], "wall has no parameter detial (did you mean detail?); known: "),
+						(["detail=morter"], "wall.detail must be one of interface, mortar, got 'morter'\n"),
+						(["stroke=1", "stroke=2"], "wall.stroke must be given once, got 1 and 2\n")])
+def test_wrongKeysAreRefusedBeforeAnythingIsBuilt(tmp_path, words, said):
+	"""run.sh in a house without a build, in which neither setup.sh nor yade would do."""
+	(tmp_path / "scripts").mkdir()
+	for name in ("run.sh", "install.sh", "wall.py"):
+		shutil.copy(house / "scripts" / name, tmp_path / "scripts")
+	(tmp_path / "scripts/setup.sh").write_text("#!/bin/sh\necho building\nexit 3\n")
+	(tmp_path / "scripts/setup.sh").chmod(0o755)
+	os.symlink(house / "py", tmp_path / "py")
+	run = called(tmp_path / "scripts/run.sh", "wall", *words)
+	assert run.returncode == 2 and run.stdout == "" and run.stderr.startswith(said)
+	assert called(tmp_path / "scripts/run.sh", "wall", "detail=mortar").stdout == "building\n"
+
+
 def test_scriptsWithoutKeys(tmp_path):
 	(tmp_path / "mine.py").write_text('"""A pile."""\nO.run(1)\n')
 	(tmp_path / "bare.py").write_text("")
 	(tmp_path / "report.py").write_text('"""A report."""')
 	(tmp_path / "report.sh").write_text("")
+	(tmp_path / "wants.py").write_text("from yade import utils\nfrom yadeblocks import scenario\nutils.nothing()\np = scenario.parameters({'a': 1})\n")
+	assert called(sys.executable, "-m", "yadeblocks.help", tmp_path / "wants.py", "b=3").returncode == 0
+	(tmp_path / "wants.py").unlink()
 	run = called(sys.executable, "-m", "yadeblocks.help", tmp_path, tmp_path / "mine.py")
 	assert run.stdout == "  bare\n  mine  A pile.\nA pile.\n\nIt has no keys.\n"
 
