@@ -38,8 +38,8 @@ def explain(path):
 
 
 def check(path, *words):
-	"""Ends with code 2 and a sentence on stderr where a scenario refuses these words, key=value. Scripts without keys, and those that want YADE itself before
-	them, are not looked into."""
+	"""Ends with code 2 and a sentence on stderr where a scenario refuses these words, key=value. Scripts without keys, and those that want YADE itself
+	before them, are not looked into."""
 	if not _hasParameters(Path(path)): return
 	from . import scenario
 	parameters = scenario.parameters

@@ -44,9 +44,11 @@ def test_helpOfAScenarioAnywhereInTheLine():
 	assert run.returncode == 0 and run.stdout.startswith("Shear of a masonry couplet") and "  steps=32000  " in run.stdout
 
 
-@pytest.mark.parametrize("words, said", [(["detial=mortar"], "wall has no parameter detial (did you mean detail?); known: "),
-						(["detail=morter"], "wall.detail must be one of interface, mortar, got 'morter'\n"),
-						(["stroke=1", "stroke=2"], "wall.stroke must be given once, got 1 and 2\n")])
+@pytest.mark.parametrize(
+	"words, said", [(["detial=mortar"], "wall has no parameter detial (did you mean detail?); known: "),
+			(["detail=morter"], "wall.detail must be one of interface, mortar, got 'morter'\n"),
+			(["stroke=1", "stroke=2"], "wall.stroke must be given once, got 1 and 2\n")]
+)
 def test_wrongKeysAreRefusedBeforeAnythingIsBuilt(tmp_path, words, said):
 	"""run.sh in a house without a build, in which neither setup.sh nor yade would do."""
 	(tmp_path / "scripts").mkdir()
