@@ -965,13 +965,14 @@ TEST(FreeContacts, RestingChangesNothing)
 	for (int i = 0; i < 3000; ++i) {
 		s.steps(1, [&](Real) {
 			for (int c : resting.contacts.order)
-				for (const Rest& rest : resting.state.contacts[c].rests)
+				for (Real until : resting.state.contacts[c].restUntil)
 					++pairs,
-						asleep += rest.until > resting.contacts.odometer.path[resting.state.contacts[c].block[0]]
-							+ resting.contacts.odometer.path[resting.state.contacts[c].block[1]];
+						asleep += until != inWork
+						&& until > resting.contacts.odometer.path[resting.state.contacts[c].block[0]]
+								+ resting.contacts.odometer.path[resting.state.contacts[c].block[1]];
 		});
 		for (FreeContact& c : restless.state.contacts) {
-			c.allRestUntil = 0;
+			std::fill(c.restUntil.begin(), c.restUntil.end(), 0);
 			std::fill(c.rests.begin(), c.rests.end(), Rest());
 		}
 		for (Sleep& contact : restless.contacts.sleep)

@@ -101,11 +101,9 @@ void nameEdges(const BlockAssembly& a, EdgePair& e)
 
 void forgetActive(FreeContact& contact)
 {
-	contact.allRestUntil = 0;
+	contact.restUntil.assign(contact.edges.size(), 0);
 	contact.rests.assign(contact.edges.size(), {});
 	contact.active.clear();
-	for (EdgePair& e : contact.edges)
-		e.inWork = false;
 	contact.active.reserve(contact.edges.size()); // nothing is allocated inside a step
 }
 
@@ -114,7 +112,7 @@ void placeForces(BlockAssembly& a)
 	FreeContacts& f    = a.contacts;
 	int           room = 0;
 	for (Sleep& s : f.sleep)
-		s.until = a.state.contacts[f.order[&s - f.sleep.data()]].allRestUntil; // where pairs were found anew, it is 0
+		s.until = 0;
 	f.range.resize(f.ofBlock.size());
 	for (int i : f.order) {
 		f.setForcesOf(i, { room, room });

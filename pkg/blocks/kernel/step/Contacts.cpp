@@ -92,6 +92,8 @@ namespace {
 		}
 
 	private:
+		static constexpr int farAhead = 8, ahead = 4; ///< contacts
+
 		BlockAssembly& a;
 		const Real     dt;
 		EdgeBatch      batch;
@@ -106,21 +108,26 @@ namespace {
 		/// anew.
 		void ask(int run, EdgesInWork& work)
 		{
-			FreeContacts& f     = a.contacts;
-			const int     first = run * FreeContacts::run, last = std::min(int(f.order.size()), first + FreeContacts::run);
-			const bool    all     = work.steps >= stepsUnasked;
-			bool          changed = work.anew;
-			Real          free    = std::numeric_limits<Real>::infinity();
-			for (int place = first; place < last; ++place) {
-				Sleep&      s    = f.sleep[place];
-				const Paths path = pathsOf(a, s.block);
-				if (!(path.most < s.until) || (all && s.inWork > 0)) {
-					FreeContact& c = a.state.contacts[f.order[place]];
-					if (ask(c, path, all)) changed = true, s.inWork = 1; // they are counted below
-					s.until = c.allRestUntil;
-				}
-				free = std::min(free, s.until - path.most);
+			FreeContacts&                      f     = a.contacts;
+			const int                          first = run * FreeContacts::run, last = std::min(int(f.order.size()), first + FreeContacts::run);
+			const bool                         all = work.steps >= stepsUnasked;
+			std::array<int, FreeContacts::run> asked; // places
+			int                                count = 0;
+			for (int place = first; place < last; ++place)
+				if (const Sleep& s = f.sleep[place]; !(pathsOf(a, s.block).most < s.until) || (all && s.inWork > 0)) asked[count++] = place;
+			bool changed = work.anew;
+			for (int i = -farAhead; i < count; ++i) { // contacts lie all over the memory: what comes soon is fetched early
+				if (i + farAhead < count) fetch(a.state.contacts[f.order[asked[i + farAhead]]]);
+				if (i + ahead >= 0 && i + ahead < count) __builtin_prefetch(a.state.contacts[f.order[asked[i + ahead]]].restUntil.data());
+				if (i < 0) continue;
+				FreeContact& c = a.state.contacts[f.order[asked[i]]];
+				Sleep&       s = f.sleep[asked[i]];
+				if (ask(c, pathsOf(a, s.block), all)) changed = true, s.inWork = 1; // they are counted below
+				s.until = c.restUntil.empty() ? inWork : *std::min_element(c.restUntil.begin(), c.restUntil.end());
 			}
+			Real free = std::numeric_limits<Real>::infinity();
+			for (int place = first; place < last; ++place)
+				free = std::min(free, f.sleep[place].until - pathsOf(a, f.sleep[place].block).most);
 			const Real now = f.odometer.most();
 			work.until     = std::isfinite(now) ? now + roundingShare * free : 0; // infinite where displacements were put somewhere
 			if (all) work.steps = 0;
@@ -132,18 +139,16 @@ namespace {
 			work.anew = false;
 		}
 
-		/// The pairs of one contact: those that rest, and if wanted those in work that do not touch. Whether some begin or end their rest.
+		/// Those pairs of a contact whose rest is over, and if wanted those in work that do not touch. Whether some begin or end their rest.
 		bool ask(FreeContact& c, const Paths& path, bool all) const
 		{
-			bool changed   = false;
-			c.allRestUntil = std::numeric_limits<Real>::infinity();
+			bool changed = false;
 			for (int k = 0; k < int(c.edges.size()); ++k) {
-				EdgePair& e = c.edges[k];
-				if (e.inWork && (e.touching || !all)) continue;
-				const bool rest = rests(c, k, path);
-				changed |= rest == e.inWork;
-				e.inWork = !rest;
-				if (rest) c.allRestUntil = std::min(c.allRestUntil, c.rests[k].until);
+				Real& until = c.restUntil[k];
+				if (path.most < until && !(all && until == inWork && !c.edges[k].touching)) continue;
+				const bool rested = until != inWork;
+				until             = restOf(c, k, path);
+				changed |= rested != (until != inWork);
 			}
 			return changed;
 		}
@@ -154,28 +159,25 @@ namespace {
 			const FreeContact& c     = a.state.contacts[contact];
 			int                count = 0;
 			for (int k = 0; k < int(c.edges.size()); ++k)
-				if (c.edges[k].inWork) add(contact, k, work), ++count;
+				if (c.restUntil[k] == inWork) add(contact, k, work), ++count;
 			return count;
 		}
 
-		/// Whether a pair surely does not touch; until where.
-		bool rests(FreeContact& c, int pair, const Paths& path) const
+		/// Until where a pair surely does not touch, or inWork.
+		Real restOf(FreeContact& c, int pair, const Paths& path) const
 		{
-			Rest& r = c.rests[pair];
-			if (path.most < r.until) return true;
+			Rest&           r = c.rests[pair];
 			const EdgePair& e = c.edges[pair];
 			if (r.free > 0)
-				if (const Real left = leftOf(a, r, e); left > 0) {
-					r.until = path.least + left;
-					return true;
-				}
-			if (e.touching || e.area > 0) return false;
+				if (const Real left = leftOf(a, r, e); left > 0) return path.least + left;
+			r.free = 0;
+			if (e.touching || e.area > 0) return inWork;
 			const Corners x = raisedCorners(a, e);
-			r.free          = edgeDepths(x).touch() > 0 && edgeGeometry(points(x), e.shape).active() ? 0 : distanceOf(points(x), e);
-			if (!(r.free > 0)) return false;
-			r.from  = movesOf(a, e);
-			r.until = path.least + r.free;
-			return true;
+			if (edgeDepths(x).touch() > 0 && edgeGeometry(points(x), e.shape).active()) return inWork;
+			r.free = distanceOf(points(x), e);
+			if (!(r.free > 0)) return inWork;
+			r.from = movesOf(a, e);
+			return path.least + r.free;
 		}
 
 		/// How far the corners of a pair that does not touch may move until it does; 0 if that is not known [m].
@@ -219,7 +221,7 @@ namespace {
 		void advance(EdgesInWork& work)
 		{
 			work.apart = false;
-			last       = -1;
+			told       = -1;
 			for (EdgeColumns& c : work.batches) {
 				if (c.count == 0) break;
 				gather(c);
@@ -270,16 +272,16 @@ namespace {
 		}
 
 		// ---- telling the pairs, contact by contact
-		int  last = -1, touching = 0; ///< contact that is being told, and how many of its pairs touch so far
-		bool changed = false;         ///< whether others of its pairs touch than did
+		int  told = -1, touching = 0; ///< contact that is being told, and how many of its pairs touch so far
+		bool othersTouch = false;     ///< whether others of its pairs touch than did
 
 		void leave()
 		{
-			if (last < 0) return;
-			const ForceRange was = a.contacts.forcesOf(last);
-			if (was.last != was.first + touching) a.contacts.setForcesOf(last, { was.first, was.first + touching });
-			FreeContact& c = a.state.contacts[last];
-			if (!changed && int(c.active.size()) == touching) return;
+			if (told < 0) return;
+			const ForceRange was = a.contacts.forcesOf(told);
+			if (was.last != was.first + touching) a.contacts.setForcesOf(told, { was.first, was.first + touching });
+			FreeContact& c = a.state.contacts[told];
+			if (!othersTouch && int(c.active.size()) == touching) return;
 			c.active.clear(); // its capacity is that of all pairs
 			for (int k = 0; k < int(c.edges.size()); ++k)
 				if (c.edges[k].touching) c.active.push_back(k);
@@ -292,7 +294,7 @@ namespace {
 			for (int i = 0; i < b.count; ++i) {
 				FreeContact& c = a.state.contacts[b.contact[i]];
 				EdgePair&    e = c.edges[b.pair[i]];
-				if (b.contact[i] != last) leave(), last = b.contact[i], touching = 0, changed = false;
+				if (b.contact[i] != told) leave(), told = b.contact[i], touching = 0, othersTouch = false;
 				if (!(batch.touches[i] > 0)) {
 					apart     = true;
 					b.area[i] = b.slip[0][i] = b.slip[1][i] = 0;
@@ -301,16 +303,16 @@ namespace {
 						e.slip = e.sigma = e.tau = { 0, 0 };
 						e.area                   = 0;
 						e.touching               = false;
-						changed                  = true;
+						othersTouch              = true;
 					}
 					continue;
 				}
-				if (!e.touching) e.touching = true, changed = true, c.rests[b.pair[i]] = {};
+				if (!e.touching) e.touching = othersTouch = true;
 				for (int k : { 0, 1 })
 					e.slip[k] = b.slip[k][i], e.sigma[k] = batch.sigma[k][i], e.tau[k] = batch.tau[k][i];
 				e.area = b.area[i], e.potential = batch.potential[i];
 				c.friction += batch.friction[i];
-				PairForce& on = a.contacts.forces[a.contacts.forcesOf(last).first + touching++];
+				PairForce& on = a.contacts.forces[a.contacts.forcesOf(told).first + touching++];
 				on.node       = b.node[i];
 				for (int n = 0; n < 4; ++n)
 					on.force[n] = { batch.fx[n][i], batch.fy[n][i] };
