@@ -62,7 +62,7 @@ def study(command):
 	fine += [trial for pair in pairs for trial in pair if trial.misfit < math.inf]
 	best = min(fine, key=lambda trial: trial.misfit)
 	held = points.measure([best.unit], range(p.seed + p.seeds, p.seed + p.seeds + p.heldOut))[0]
-	report(command, edges, experiments, fine, best, held, len(tried), points, pairs)
+	report(command, edges, experiments, fine, best, held, tried, points, pairs)
 
 
 class Target:
@@ -231,8 +231,8 @@ def report(command, edges, experiments, fine, best, held, tried, points, pairs):
 	joints["scenarios"] = {stem: values for stem, values in joints["scenarios"].items() if values}
 	writeWhole(command.folder / "joints.json", json.dumps(plain(joints), indent=1) + "\n")
 	command.write(
-		parameters=parameters, targets=rows, misfit=best.misfit, trials=tried, usable_trials=len(fine), sampler_seed=p.samplerSeed,
-		optimiser="optuna TPE and quadratic surfaces", seeds=list(range(p.seed, p.seed + p.seeds)), held_out_seeds=list(
+		parameters=parameters, targets=rows, misfit=best.misfit, trials=len(tried), usable_trials=sum(trial.misfit < math.inf for trial in tried),
+		sampler_seed=p.samplerSeed, optimiser="optuna TPE and quadratic surfaces", seeds=list(range(p.seed, p.seed + p.seeds)), held_out_seeds=list(
 			range(p.seed + p.seeds, p.seed + p.seeds + p.heldOut)
 		), bounds=edges, profiles=profiles, correlations={" ".join(pair): value for pair, value in correlations.items()},
 		surface_error=fitted.errors if fitted else None, experiments={
@@ -243,10 +243,21 @@ def report(command, edges, experiments, fine, best, held, tried, points, pairs):
 		**place(edges, trial.unit), **{key: found.mean for key, found in trial.means.items()},
 		**{f"{key} scatter": found.scatter for key, found in trial.means.items()}, "misfit": trial.misfit
 	} for trial in fine]).to_csv(command.folder / "trials.csv", index=False, float_format="%.6g")
-	text = markdown(command, edges, parameters, rows, profiles, correlations, best, tried, fitted)
+	text = markdown(command, edges, parameters, rows, profiles, correlations, best, len(tried), fitted) + unusable(tried)
 	(command.folder / "table.md").write_text(text)
-	if profiles: studypicture.drawCalibration(command.folder / "calibration.png", profiles, rows, f"{command.stem}: {tried} trials")
+	if profiles: studypicture.drawCalibration(command.folder / "calibration.png", profiles, rows, f"{command.stem}: {len(tried)} trials")
 	print(text)
+
+
+def unusable(tried):
+	"""Which trials had no misfit, and why: a region of the bounds that was not seen."""
+	failed = [trial for trial in tried if trial.misfit == math.inf]
+	if not failed: return ""
+	counts = {}
+	for why in (why for trial in failed for why in set(trial.why) or {"a quantity is missing"}):
+		counts[why] = counts.get(why, 0) + 1
+	told = "; ".join(f"{why} ({count})" for why, count in sorted(counts.items(), key=lambda entry: -entry[1])[:5])
+	return f"- {len(failed)} of {len(tried)} trials could not be used, so that part of the bounds is unknown: {told}.\n"
 
 
 def verdict(found, target):

@@ -280,6 +280,19 @@ def test_severalExperimentsAtOnce(studied, tmp_path):
 	assert set(joints["parameters"]) == {"cohesion"} and set(joints["scenarios"]["mine"]) == {"friction"} and "other" not in joints["scenarios"]
 
 
+def test_trialsThatFailAreTold(studied):
+	"""Half of the bounds is refused: how many trials that took, and why, is below the table."""
+	def choosy(words):
+		if words["cohesion"] < 1e6: raise ValueError("exit code 1: cohesion must be larger")
+		return couplet(words)
+
+	found, runs, folder = studied(calibrate, choosy, "targets=peak:1.6:5%", "bounds=cohesion:0.3e6:3e6", "friction=30", "trials=8", "jobs=2", "enough=1e-9")
+	lost = found["trials"] - found["usable_trials"]
+	assert 0 < lost < 8
+	text = (folder / "table.md").read_text()
+	assert f"- {lost} of 8 trials could not be used, so that part of the bounds is unknown: exit code 1: cohesion must be larger ({lost})." in text
+
+
 def test_aStudyOfSeveralExperimentsHasANameOfItsOwn(studied, tmp_path):
 	"""Where every experiment says its scenario, the study need not be one; where one does not, the name is taken for it."""
 	(tmp_path / "scripts/other.py").write_text("scenario.parameters({'vtk': True})")
