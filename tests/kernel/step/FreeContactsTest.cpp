@@ -1016,6 +1016,45 @@ TEST(FreeContacts, ColumnsHoldWhatTheStateSays)
 	EXPECT_EQ(contactFriction(kept), contactFriction(copied));
 }
 
+TEST(FreeContacts, ColumnsFollowWhatHappensToPairs)
+{
+	// A box on another, pressed in by depth d: sigma = -kn d, and tau = ks times what it slid, by v dt in each step, as long as that is below friction.
+	// Nobody asks who rests in between, so that columns are not filled anew for that reason.
+	const Real        d = 1e-3, v = 0.1, dt = 1e-3;
+	const JointParams joint = frictional(2e6, 1e6, 25 * degree), stiffer = frictional(6e6, 1e6, 25 * degree);
+	BlockAssembly     a = scene();
+	addRigid(a, box(-1, -1, 2, 1));
+	const int upper = addRigid(a, box(-0.5, -d, 1, 1));
+	computeAllForces(a, joint, 0);
+	ASSERT_EQ(a.contacts.order.size(), 1u);
+	const FreeContact& c = a.state.contacts[0];
+	ASSERT_EQ(c.active.size(), 1u);
+	const EdgePair& e         = c.edges[c.active[0]];
+	const auto      expectTau = [&](Real slip) {
+                for (int k : { 0, 1 })
+                        EXPECT_NEAR(std::abs(e.tau[k]), joint.ks * slip, 1e-9 * joint.ks * v * dt);
+	};
+	setVelocity(a, upper, { v, 0 });
+	advanceContacts(a, dt);
+	expectTau(v * dt);
+	advanceContact(a, 0, dt);
+	expectTau(2 * v * dt);
+	advanceContacts(a, 0);
+	expectTau(2 * v * dt);
+	EXPECT_NEAR(e.sigma[0], -joint.kn * d, 1e-9 * joint.kn * d);
+	setContactJoint(a, 0, stiffer);
+	advanceContacts(a, 0);
+	EXPECT_NEAR(e.sigma[0], -stiffer.kn * d, 1e-9 * stiffer.kn * d);
+	moveBlock(a, upper, { 0, 2 * d });
+	advanceContacts(a, dt);
+	EXPECT_FALSE(e.touching);
+	EXPECT_EQ(contactForce(a, upper), Vec2(0, 0));
+	moveBlock(a, upper, { 0, -2 * d });
+	advanceContacts(a, 0);
+	EXPECT_TRUE(e.touching);
+	expectTau(0); // it has forgotten what it slid
+}
+
 TEST(FreeContacts, VelocitiesTellHowFarThingsHaveGone)
 {
 	// Where nobody else moves grid points, their velocities bound how far they have gone, and positions are compared only now and then. The
