@@ -27,7 +27,7 @@ def loopList(contact=False, servo=None, newton=None, **motion):
 	return engines + [y.BlockMotion(**motion)] # masses or O.dt, motion
 
 
-@door(joints='sequence', contact='flag', stepper='mapping', servo='mapping', newton='mapping')
+@door(joints='sequence', contact='flag', stepper='mappingOrNone', servo='mapping', newton='mapping')
 def engineList(joints, contact=False, stepper={}, servo=None, newton=None, **integrator):
 	"""The engines of a scene of blocks, for `O.engines`; recorders and the like are added behind them.
 

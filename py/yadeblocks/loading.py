@@ -151,7 +151,7 @@ class Approach:
 
 	>>> approach = Approach(model, 'top', slow=0.25)
 	>>> approach(stress, broken)     # every now and then"""
-	@door('slow', 'drop', 'growth', model='model', group='str')
+	@door('slow', 'drop', 'growth', model='throttled', group='str')
 	def __init__(self, model, group, slow, drop=0.7, growth=1.1):
 		if not 0 < slow <= 1: raise ValueError('Approach: slow must lie in (0, 1], got %r' % slow)
 		if not 0 < drop < 1: raise ValueError('Approach: drop must lie in (0, 1), got %r' % drop)

@@ -965,19 +965,17 @@ TEST(FreeContacts, RestingChangesNothing)
 	for (int i = 0; i < 3000; ++i) {
 		s.steps(1, [&](Real) {
 			for (int c : resting.contacts.order)
-				for (Real until : resting.state.contacts[c].restUntil)
+				for (const Rest& rest : resting.state.contacts[c].rests)
 					++pairs,
-						asleep += until != inWork
-						&& until > resting.contacts.odometer.path[resting.state.contacts[c].block[0]]
-								+ resting.contacts.odometer.path[resting.state.contacts[c].block[1]];
+						asleep += rest.until > resting.contacts.odometer.path[resting.state.contacts[c].block[0]]
+							+ resting.contacts.odometer.path[resting.state.contacts[c].block[1]];
 		});
 		for (FreeContact& c : restless.state.contacts) {
-			std::fill(c.restUntil.begin(), c.restUntil.end(), 0);
+			c.allRestUntil = 0;
 			std::fill(c.rests.begin(), c.rests.end(), Rest());
 		}
 		for (Sleep& contact : restless.contacts.sleep)
 			contact.until = 0;
-		restless.contacts.kept = false;
 		t.steps(1);
 		ASSERT_EQ(resting.contacts.order.size(), restless.contacts.order.size()) << i;
 	}
@@ -986,73 +984,6 @@ TEST(FreeContacts, RestingChangesNothing)
 	EXPECT_EQ(contactFriction(resting), contactFriction(restless));
 	std::printf("edge pairs asleep in a heap that falls: %.0f %%\n", 100. * asleep / pairs);
 	EXPECT_GT(asleep, pairs / 2);
-}
-
-TEST(FreeContacts, ColumnsHoldWhatTheStateSays)
-{
-	// What a step copied from the state for later ones is as good as what it would copy now: edges part and meet, contacts come and go, somebody changes
-	// their joints, and for a while contacts are worked on one by one.
-	BlockAssembly     kept = heap(12), copied = kept;
-	const JointParams joint = frictional(2e6, 1e6, 25 * degree), other = frictional(3e6, 2e6, 10 * degree);
-	Simulation        s(kept, joint, 0.4), t(copied, joint, 0.4);
-	for (int i = 0; i < 3000; ++i) {
-		if (i == 1500)
-			for (BlockAssembly* a : { &kept, &copied })
-				for (int c : a->contacts.order)
-					setContactJoint(*a, c, other);
-		if (i > 2000 && i < 2200) {
-			prepareContacts(kept, s.dt);
-			for (int c : kept.contacts.order)
-				advanceContact(kept, c, s.dt);
-			sumForces(kept);
-			integrate(kept, s.damping, s.dt, 0, true);
-		} else
-			s.steps(1);
-		copied.contacts.kept = false;
-		t.steps(1);
-	}
-	expectSameBits(kept, copied);
-	EXPECT_GT(contactFriction(kept), 0);
-	EXPECT_EQ(contactFriction(kept), contactFriction(copied));
-}
-
-TEST(FreeContacts, ColumnsFollowWhatHappensToPairs)
-{
-	// A box on another, pressed in by depth d: sigma = -kn d, and tau = ks times what it slid, by v dt in each step, as long as that is below friction.
-	// Nobody asks who rests in between, so that columns are not filled anew for that reason.
-	const Real        d = 1e-3, v = 0.1, dt = 1e-3;
-	const JointParams joint = frictional(2e6, 1e6, 25 * degree), stiffer = frictional(6e6, 1e6, 25 * degree);
-	BlockAssembly     a = scene();
-	addRigid(a, box(-1, -1, 2, 1));
-	const int upper = addRigid(a, box(-0.5, -d, 1, 1));
-	computeAllForces(a, joint, 0);
-	ASSERT_EQ(a.contacts.order.size(), 1u);
-	const FreeContact& c = a.state.contacts[0];
-	ASSERT_EQ(c.active.size(), 1u);
-	const EdgePair& e         = c.edges[c.active[0]];
-	const auto      expectTau = [&](Real slip) {
-                for (int k : { 0, 1 })
-                        EXPECT_NEAR(std::abs(e.tau[k]), joint.ks * slip, 1e-9 * joint.ks * v * dt);
-	};
-	setVelocity(a, upper, { v, 0 });
-	advanceContacts(a, dt);
-	expectTau(v * dt);
-	advanceContact(a, 0, dt);
-	expectTau(2 * v * dt);
-	advanceContacts(a, 0);
-	expectTau(2 * v * dt);
-	EXPECT_NEAR(e.sigma[0], -joint.kn * d, 1e-9 * joint.kn * d);
-	setContactJoint(a, 0, stiffer);
-	advanceContacts(a, 0);
-	EXPECT_NEAR(e.sigma[0], -stiffer.kn * d, 1e-9 * stiffer.kn * d);
-	moveBlock(a, upper, { 0, 2 * d });
-	advanceContacts(a, dt);
-	EXPECT_FALSE(e.touching);
-	EXPECT_EQ(contactForce(a, upper), Vec2(0, 0));
-	moveBlock(a, upper, { 0, -2 * d });
-	advanceContacts(a, 0);
-	EXPECT_TRUE(e.touching);
-	expectTau(0); // it has forgotten what it slid
 }
 
 TEST(FreeContacts, VelocitiesTellHowFarThingsHaveGone)

@@ -66,7 +66,7 @@ void sortContacts(BlockAssembly& a)
 	std::sort(f.order.begin(), f.order.end(), [&](int i, int j) { return a.state.contacts[i].block < a.state.contacts[j].block; });
 	f.sleep.clear();
 	for (int i : f.order)
-		f.sleep.push_back({ a.state.contacts[i].block });
+		f.sleep.push_back({ a.state.contacts[i].block, 0 });
 	f.ofBlock.assign(2 * f.order.size(), 0);
 	f.firstOfBlock.assign(f.order.empty() ? 0 : a.blockCount() + 1, 0);
 	for (int i : f.order)
@@ -74,13 +74,9 @@ void sortContacts(BlockAssembly& a)
 			++f.firstOfBlock[block + 1];
 	std::partial_sum(f.firstOfBlock.begin(), f.firstOfBlock.end(), f.firstOfBlock.begin());
 	std::vector<int> next = f.firstOfBlock;
-	f.rangeOf.resize(a.state.contacts.size());
 	for (int i : f.order) // sorted by both blocks: every block meets the others in their order
-		for (int side : { 0, 1 }) {
-			int& place         = next[a.state.contacts[i].block[side]];
-			f.ofBlock[place]   = i;
-			f.rangeOf[i][side] = place++;
-		}
+		for (int block : a.state.contacts[i].block)
+			f.ofBlock[next[block]++] = i;
 	f.blocksInContact.clear();
 	for (int b = 0; b + 1 < int(f.firstOfBlock.size()); ++b)
 		if (f.firstOfBlock[b] != f.firstOfBlock[b + 1]) f.blocksInContact.push_back(b);
@@ -101,7 +97,8 @@ void nameEdges(const BlockAssembly& a, EdgePair& e)
 
 void forgetActive(FreeContact& contact)
 {
-	contact.restUntil.assign(contact.edges.size(), 0);
+	contact.allRestUntil = 0;
+	contact.looks        = 0;
 	contact.rests.assign(contact.edges.size(), {});
 	contact.active.clear();
 	contact.active.reserve(contact.edges.size()); // nothing is allocated inside a step
@@ -111,16 +108,16 @@ void placeForces(BlockAssembly& a)
 {
 	FreeContacts& f    = a.contacts;
 	int           room = 0;
-	for (Sleep& s : f.sleep)
-		s.until = 0;
-	f.range.resize(f.ofBlock.size());
+	for (size_t place = 0; place < f.order.size(); ++place) {
+		const FreeContact& c = a.state.contacts[f.order[place]];
+		f.sleep[place].until = c.active.empty() ? c.allRestUntil : 0; // where pairs were found anew, it is 0
+	}
+	f.range.resize(a.state.contacts.size());
 	for (int i : f.order) {
-		f.setForcesOf(i, { room, room });
+		f.range[i] = { room, room };
 		room += int(a.state.contacts[i].edges.size());
 	}
 	f.forces.resize(room);
-	f.inWork.resize((f.order.size() + FreeContacts::run - 1) / FreeContacts::run);
-	f.kept = false;
 }
 
 void rebuildContacts(BlockAssembly& a)

@@ -328,8 +328,7 @@ namespace {
 	/// Lengths of the paths of those blocks that have contacts.
 	void followMotion(BlockAssembly& a)
 	{
-		FreeContacts& f       = a.contacts;
-		Real          longest = 0;
+		FreeContacts& f = a.contacts;
 		for (int b : f.blocksInContact) {
 			Real farthest = 0;
 			for (int n = a.mesh.firstNode[b]; n < a.mesh.firstNode[b + 1]; ++n) {
@@ -337,9 +336,7 @@ namespace {
 				f.odometer.seenAt[n] = a.state.displacement[n];
 			}
 			f.odometer.path[b] += std::sqrt(farthest);
-			longest = std::max(longest, std::sqrt(farthest));
 		}
-		f.odometer.longest += longest;
 		f.odometer.unseen = 0, f.odometer.steps = 0;
 	}
 
