@@ -37,7 +37,7 @@ public:
 		((Real, dilationLimitSlip, -1, , "Slip beyond which the joint dilates no further [m]; -1: none. With general contact a quarter of the joint's length is the most: then its edges become a free contact, which keeps what it has dilated."))
 		((Real, GfI, 0, , "Fracture energy of opening [J/m2 = N/m]; 0, with GfII: brittle. Clay brick masonry: 5 to 20 N/m at strengths of 0.3 to 0.9 N/mm2 (Van der Pluijm 1992, as in Lourenco 1996)."))
 		((Real, GfII, 0, , "Fracture energy of slip, without that of friction [J/m2 = N/m]. Clay brick masonry: 10 to 250 N/m at cohesions of 0.1 to 1.8 N/mm2 (Van der Pluijm 1993, as in Lourenco 1996)."))
-		((Real, GfIIPressure, 0, , "What GfII rises by with the pressure on the joint [J/m2 by Pa = m]. Clay brick masonry: 0.13 mm (Van der Pluijm 1993, GfII = 58 N/m + 0.13 mm p, as in Lourenco 1996)."))
+		((Real, GfIIPressure, 0, , "What GfII rises by with the pressure on the joint [J/m2 by Pa = m]. Clay brick masonry: 0.13 mm (Van der Pluijm 1993, GfII = 58 N/m + 0.13 mm p, as in Lourenco 1996; from memory, not checked)."))
 		((Real, lastingShare, 0, , "Share of the inelastic opening that lasts when a joint that softens is unloaded: 0 secant to the origin, 1 plastic (as Lourenco and Rots 1997) [-]."))
 		((Real, dilationDecay, 0, , "Dilatancy of a joint that softens falls with slip as e^(-dilationDecay slip); reversal takes nothing back and raises nothing [1/m]. 17 1/mm in Van der Pluijm's tests, as in Lourenco 1996."))
 		((Real, dilationPressure, -1, , "Pressure at which a joint that softens dilates no more; below, dilatancy falls linearly with it [Pa]; -1: none."))
