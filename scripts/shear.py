@@ -14,7 +14,8 @@ correlation length.
 
 Size means sqrt(mean area) unless sizeMeaning=edge. Loading starts at the first crack (jump) and is a fifth as fast as said (approach) until the peak is passed;
 servo=true lets the unbalanced force set the speed instead. kn, ks, cohesion, tension, friction, residualFriction, dilation (angles in degrees), GfI and
-GfII [N/m] and lastingShare show what governs the result; what is not given is that of the joints' set, Table 5 by default.
+GfII [N/m], lastingShare and mortarStrengths (factor on the strengths of joints within the mortar) show what governs the result; what is not given is that of
+the joints' set, Table 5 by default.
 units=voronoi makes bricks of blocks, with edges of brickZone, that could crack; plain ones are one elastic block with zones of that size.
 cells=triangles fills the layers with triangular blocks; edgeSegments=n makes n joints of every edge, so that contact points lie inside edges too.
 halfRate=true repeats every run at half the loading rate and reports the change of the peak.
@@ -68,7 +69,7 @@ p = scenario.parameters({
 	), 'afterPeak': Key(True, 'go on behind the peak, to the residual stress'), 'contact': Key(True, 'blocks that share no joint may meet'),
 	'size': Key(3.5e-3, 'size of the Voronoi cells', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer')),
 	'joints': Key('paper', 'brittle joints of Table 5, or joints that soften',
-			rule=tuple(sets)), **softening.jointKeys(*sets['paper']), **softening.scatterKeys, **moduli,
+			rule=tuple(sets)), **softening.jointKeys(*sets['paper'], 'mortarStrengths'), **softening.scatterKeys, **moduli,
 	**scenario.usualParameters(brickZone=8e-3, merge=0.1, halfRate=False, vtk=True, frames=10, movie='none', sheets=True)
 })
 scenario.require(p.solver == 'steps' or not (p.halfRate or p.servo), 'shear: solver=events has no rate: servo and halfRate must be false')
@@ -96,7 +97,10 @@ def build(seed, dt):
 	for number, outline in enumerate((rectangle(0, 0, length, low), rectangle(0, high, length, high + brickHeight))):
 		if p.units == 'plain': model.addRegion(outline, 'unit', zoneSize=p.brickZone)
 		else: model.addVoronoi(outline, 'unit', size=p.brickZone, lloyd=3, seed=1000 * seed + number, edgeSegments=p.edgeSegments)
-	joints = [JointMat(material1=a, material2='mortar', **joint) for a in ('mortar', 'unit')]
+	joints = [
+		JointMat(material1='mortar', material2='mortar', **softening.stronger(joint, p.mortarStrengths)),
+		JointMat(material1='unit', material2='mortar', **joint)
+	]
 	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **brickJoint))
 	model.bond(joints)
 	softening.scatterStrengths(model, p, seed)

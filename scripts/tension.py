@@ -18,7 +18,7 @@ With them, the case only says the size, and the run goes on until the stress has
 `fracture_energy`, work less what is stored and kinetic, is that of the section. alpha is 0.3 then: local damping of rattling blocks is a drag that does not
 vanish with the rate. With 0.8 it took 9 N/m of 28, and held the stress behind the peak up.
 scatter= is the strengths' coefficient of variation, scatterLength= [m] their field's correlation length; kn, ks, tension, cohesion, GfI, GfII [SI],
-friction, dilation [degrees], lastingShare, unitYoung and mortarYoung [Pa] show what governs the result.
+friction, dilation [degrees], lastingShare, mortarStrengths (factor on those within the mortar), unitYoung and mortarYoung [Pa] show what governs the result.
 
 Size means the mean edge, as in UDEC, unless sizeMeaning=sqrtArea. The stiffness across the layer should be that of the series
 1/K = h/E' + h/(0.92 kn s) + 1/kn, with s = sqrt(mean area) = 1.61 edges and E' = E/(1 - nu^2) in plane strain.
@@ -76,7 +76,7 @@ p = scenario.parameters({
 	), 'size': Key(0.0, 'size of the Voronoi cells; 0: of the case', 'm', (lambda s: 0 <= s < mortarHeight, 'must be smaller than the mortar layer')),
 	'case': Key('TT2', 'properties of brittle joints, see above',
 			rule=tuple(cases)), 'joints': Key('paper', 'brittle joints of the case, or joints that soften', rule=('paper', *softeningSets)),
-	**softening.jointKeys('kn', 'ks', 'tension', 'cohesion', 'friction', 'dilation', 'GfI', 'GfII', 'lastingShare'), 'alpha': Key(
+	**softening.jointKeys('kn', 'ks', 'tension', 'cohesion', 'friction', 'dilation', 'GfI', 'GfII', 'lastingShare', 'mortarStrengths'), 'alpha': Key(
 		-1.0, 'coefficient of local damping; -1: 0.8, or 0.3 where joints soften', rule=(lambda a: a == -1 or 0 <= a < 1, 'must lie in [0, 1)')
 	), 'steps': Key(
 		0, 'time steps for the first 0.03 mm; 0: 40000, or 10000 where joints soften', rule=(lambda n: n == 0 or n >= 1000, 'must be at least 1000')
@@ -92,7 +92,7 @@ if softens:
 	expectedPeak, source = experiments.tensileStrength
 given = {key: getattr(p, key) for key in ('kn', 'ks', 'tension', 'cohesion', 'GfI', 'GfII', 'lastingShare') if getattr(p, key) != -1}
 given.update({name: radians(getattr(p, key)) for key, name in (('friction', 'frictionAngle'), ('dilation', 'dilationAngle')) if getattr(p, key) != -1})
-mortarJoint, unitJoint = {**mortarJoint, **given}, {**unitJoint, **given}
+mortarJoint, unitJoint = softening.stronger({**mortarJoint, **given}, p.mortarStrengths), {**unitJoint, **given}
 softening.takeScatter(p, scatterOfSets.get(p.joints, 0.0))
 p.size = p.size or caseSize
 if p.alpha == -1: p.alpha = 0.3 if softens else 0.8

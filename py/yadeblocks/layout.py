@@ -63,6 +63,16 @@ class Layout:
 		points = np.vstack(self.outlines)
 		return (*points.min(axis=0), *points.max(axis=0))
 
+	@door('angle', about='point')
+	def turned(self, angle, about=(0.0, 0.0)):
+		"""The same blocks, turned counter-clockwise by an angle [rad] about a point [m] -> Layout. Joints have the names that they had; notes, which may
+		tell places, are left behind."""
+		about, cos, sin = np.asarray(about, float), np.cos(angle), np.sin(angle)
+		turn = np.array([[cos, sin], [-sin, cos]]) # of rows
+		moved = lambda ring: (np.asarray(ring, float) - about) @ turn + about
+		nameOf = lambda normals, ends, samePiece: self.nameOf(normals @ turn.T, (ends - about) @ turn.T + about, samePiece)
+		return Layout([moved(ring) for ring in self.outlines], self.kinds, self.pieces, nameOf, [[moved(hole) for hole in some] for some in self.holes])
+
 	@door('zoneSize', model='model', material='str', rigid='flag')
 	def addTo(self, model, material, zoneSize=None, rigid=False, **region):
 		"""Adds all blocks to a BlockModel -> Placed. material: a label; zoneSize [m] and further arguments as in BlockModel.addRegion, or

@@ -49,6 +49,11 @@ def jointKeys(*names):
 	return {name: scenario.Key(-1.0, _keys[name][0], *_keys[name][1:]) for name in names}
 
 
+def stronger(joint, factor):
+	"""Properties of a joint with its strengths times a factor; -1: as they are."""
+	return joint if factor == -1 else {**joint, **{name: factor * joint[name] for name in ('cohesion', 'tension')}}
+
+
 #: Scenario keys of the scatter of strengths.
 scatterKeys = {
 	"scatter": scenario.Key(
