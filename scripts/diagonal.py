@@ -31,7 +31,6 @@ from yadeblocks.results import Cracks
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
 from yadeblocks.snapshot import Film
-from yadeblocks.specimen import nodesWhere
 
 # ---- parameters (SI)
 
@@ -92,7 +91,9 @@ with Session(p) as session:
 			model, joints = build()
 			limit = 0.707 * largestForce(model, 'shoe', (0, -1)).load / area
 			cracks, film = Cracks(model, joints), Film(model)
-			stop, pace = loading.Stop(drop=0.5, displacement=p.stroke), Pace(model, lambda: model.groupForce('shoe'), lambda: model.groupForce('support'))
+			stop, pace = loading.Stop(drop=0.5, displacement=p.stroke), Pace(
+				model, lambda: model.groupForce('shoe'), lambda: model.groupForce('support')
+			)
 			record = Recorder(
 				path=lambda: -model.groupTravelled('shoe'), load=lambda: -model.groupForce('shoe'), centre=lambda: centreTension(model),
 				broken=cracks.look, damage=lambda: model.pointDamage.max()

@@ -69,6 +69,19 @@ class Present:
 		self.points = np.repeat(self.joints, 2)
 
 
+def areasAndCentroids(model):
+	"""Of every block, holes left out, from its boundary (Green) [m2, m]."""
+	ends = np.asarray(model.reference)[np.asarray(model.edgeNodes)]
+	owner = np.repeat(np.arange(model.blockCount), np.diff(model.firstEdge))
+	origin = ends[np.asarray(model.firstEdge)[:-1], 0][owner]
+	a, b = ends[:, 0] - origin, ends[:, 1] - origin
+	cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+	sums = lambda values: np.bincount(owner, values, model.blockCount)
+	areas = sums(cross) / 2
+	middle = np.column_stack([sums(cross * (a[:, axis] + b[:, axis])) for axis in range(2)]) / (6 * areas[:, None])
+	return areas, middle + ends[np.asarray(model.firstEdge)[:-1], 0]
+
+
 def blockOutlines(model):
 	"""The boundary of every block: a list of rings per block, each an array of node indices, material on the left (holes clockwise)."""
 	outlines = []

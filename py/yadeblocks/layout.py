@@ -65,8 +65,8 @@ class Layout:
 
 	@door('angle', about='point')
 	def turned(self, angle, about=(0.0, 0.0)):
-		"""The same blocks, turned counter-clockwise by an angle [rad] about a point [m] -> Layout. Joints have the names that they had; notes, which may
-		tell places, are left behind."""
+		"""The same blocks, turned counter-clockwise by an angle [rad] about a point [m] -> Layout. Joints have the names that they had. Notes are left
+		behind, since they may tell places."""
 		about, cos, sin = np.asarray(about, float), np.cos(angle), np.sin(angle)
 		turn = np.array([[cos, sin], [-sin, cos]]) # of rows
 		moved = lambda ring: (np.asarray(ring, float) - about) @ turn + about

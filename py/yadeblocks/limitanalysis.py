@@ -4,6 +4,7 @@
 	limit = largestMultiplier(model, bodyForces(model, (9.81, 0)), bodyForces(model, (0, -9.81)), fixed=[base])
 	limit = largestForce(model, 'shoe', (0, -1))       # of a group that is driven, the model's other groups hold
 	limit.load, limit.sigma, limit.tau, limit.mechanism
+	pictures.drawMechanism('mechanism.png', model, limit.mechanism)
 
 It takes the model as it was built, before any step, and so is a check on what steps find (static theorem: Drucker, Greenberg and Prager 1952; blocks with
 friction: Livesley 1978). It is the exact limit if joints dilate by their friction angle. Without dilation it is an upper bound. Joints that soften or are
@@ -14,6 +15,7 @@ import numpy as np
 
 from ._calls import door
 from ._kinds import shown
+from .export import areasAndCentroids
 
 #: load: the multiplier [-] or the force [N] at the limit; sigma, tau: stresses of the contact points there, tension positive [Pa], in general not the only
 #: possible ones; mechanism: how the blocks then move, velocity of the centroid [m/s] and rotation [rad/s], (blocks, 3), so that the load's power is 1 W, or
@@ -26,7 +28,7 @@ def bodyForces(model, acceleration):
 	"""Mass times an acceleration [m/s2] for every block, at its centroid, (blocks, 2) [N]: weights with (0, -9.81)."""
 	from yade import O
 	density = np.array([O.materials[label].density for label in model.materialLabels])[model.blockMaterial]
-	areas, _ = _areasAndCentroids(model)
+	areas, _ = areasAndCentroids(model)
 	return (density * areas * model.thickness)[:, None] * np.asarray(acceleration, float)
 
 
@@ -37,8 +39,8 @@ def largestMultiplier(model, growing, constant=None, fixed=None):
 	growing, constant: forces on the blocks at their centroids, (blocks, 2) [N], `bodyForces` say; fixed: blocks that do not move. Grid points that groups
 	hold or drive do not move along their axes either.
 
-	Errors: ValueError where the constant forces cannot be held with any factor >= 0, where no factor is too large, and for arrays that do not fit the model;
-	RuntimeError for a model without joints, or with joints that have broken or soften."""
+	Errors: ValueError where the constant forces cannot be held with any factor >= 0, where no factor is too large, and for arrays that do not fit the
+	model; RuntimeError for a model without joints, or with joints that have broken or soften."""
 	problem = _Problem(model, fixed)
 	problem.carry('growing', growing, problem.load(1 / max(np.abs(growing).max(), 1e-300)))
 	if constant is not None: problem.carry('constant', constant)
@@ -75,7 +77,7 @@ class _Problem:
 			if not (0 <= min(fixed) and max(fixed) < self.blocks):
 				raise ValueError(f'limit analysis: fixed must be blocks of the model, 0 to {self.blocks - 1}, got {shown(fixed)}')
 			self.moves[fixed] = False
-		_, self.centroids = _areasAndCentroids(model)
+		_, self.centroids = areasAndCentroids(model)
 		self.entries, self.right, self.scale = [], np.zeros(3 * self.blocks), []
 		self.held = {} # (group, axis) -> columns
 		self._joints()
@@ -111,19 +113,22 @@ class _Problem:
 		stress = max(self.cohesion.max(), self.tension.max(), np.abs(self.right).max() / self.area.mean()) or 1
 		force = stress * self.area.mean()
 		scale = np.array([by * (force if isForce else stress) for by, isForce in self.scale])
-		balance = np.append(np.tile([1, 1, 1 / np.ptp(np.asarray(self.model.reference), axis=0).max()], self.blocks), np.ones(len(self.right) - 3 * self.blocks)) / force
+		balance = np.append(
+			np.tile([1, 1, 1 / np.ptp(np.asarray(self.model.reference), axis=0).max()], self.blocks), np.ones(len(self.right) - 3 * self.blocks)
+		) / force
 		kept = np.append(np.repeat(self.moves, 3), np.ones(len(self.right) - 3 * self.blocks, bool))
 		equilibrium = coo_array((values * balance[rows] * scale[columns], (rows, columns)), (len(self.right), len(scale))).tocsr()[kept]
 		sigma = np.arange(self.points)
 		tau, ones = sigma + self.points, np.ones(self.points)
 		slides = coo_array((
-			np.concatenate([self.friction, ones, self.friction, -ones]), (np.concatenate([sigma, sigma, tau, tau]), np.concatenate([sigma, tau, sigma, tau]))
+			np.concatenate([self.friction, ones, self.friction, -ones]),
+			(np.concatenate([sigma, sigma, tau, tau]), np.concatenate([sigma, tau, sigma, tau]))
 		), (2 * self.points, len(scale))).tocsr()
 		goal = np.zeros(len(scale))
 		goal[-1] = -1
 		found = linprog(
-			goal, slides, np.tile(self.cohesion / stress, 2), equilibrium, (self.right * balance)[kept], [(None, most) for most in self.tension / stress] +
-			[(None, None)] * (len(scale) - self.points - 1) + [(0, None)], 'highs'
+			goal, slides, np.tile(self.cohesion / stress, 2), equilibrium, (self.right * balance)[kept],
+			[(None, most) for most in self.tension / stress] + [(None, None)] * (len(scale) - self.points - 1) + [(0, None)], 'highs'
 		)
 		if found.status == 2: raise ValueError('limit analysis: joints and supports cannot hold the constant forces, whatever the load')
 		if found.status == 3: raise ValueError('limit analysis: no load is too large: joints and supports hold any, or the load does no work')
@@ -166,16 +171,3 @@ class _Problem:
 		arm = places - self.centroids[blocks]
 		for axis, values in enumerate((forces[:, 0], forces[:, 1], arm[:, 0] * forces[:, 1] - arm[:, 1] * forces[:, 0])):
 			self.entries.append((3 * blocks + axis, columns, values))
-
-
-def _areasAndCentroids(model):
-	"""Of every block, holes left out, from its boundary (Green) [m2, m]."""
-	ends = np.asarray(model.reference)[np.asarray(model.edgeNodes)]
-	owner = np.repeat(np.arange(model.blockCount), np.diff(model.firstEdge))
-	origin = ends[np.asarray(model.firstEdge)[:-1], 0][owner]
-	a, b = ends[:, 0] - origin, ends[:, 1] - origin
-	cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-	sums = lambda values: np.bincount(owner, values, model.blockCount)
-	areas = sums(cross) / 2
-	middle = np.column_stack([sums(cross * (a[:, axis] + b[:, axis])) for axis in range(2)]) / (6 * areas[:, None])
-	return areas, middle + ends[np.asarray(model.firstEdge)[:-1], 0]

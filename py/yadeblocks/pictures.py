@@ -15,7 +15,7 @@ import numpy as np
 
 from . import files
 from ._calls import door
-from .export import Present, blockOutlines, contactLines, pointNames, pointsOf
+from .export import Present, areasAndCentroids, blockOutlines, contactLines, pointNames, pointsOf
 from .results import Cracks, intact, modes
 
 #: What a curve is compared with: y is a number (drawn as a line), a pair (a band) or, with x, a measured curve.
@@ -93,6 +93,29 @@ def drawCracks(path, model, magnification=None, window=None, title="", names=Non
 			handles=cracks + blocks, title="" if cracks else "no broken joints", loc="upper center", borderaxespad=0,
 			bbox_to_anchor=(0.5, -26 * _point / height), ncol=math.ceil(len(cracks + blocks) / len(modes)), columnspacing=1.4, handlelength=2.2
 		)
+	return path
+
+
+@door(path='path', model='model', mechanism='sequence', title='str')
+def drawMechanism(path, model, mechanism, title=""):
+	"""How rigid blocks move at once: a mechanism of `limitanalysis`, its largest displacement 5 % of the scene's size. mechanism: velocity of every block's
+	centroid and its rotation, (blocks, 3). Returns the path."""
+	mechanism = np.asarray(mechanism, float)
+	if mechanism.shape != (model.blockCount, 3):
+		raise ValueError(f"drawMechanism.mechanism must have the shape ({model.blockCount}, 3), got {mechanism.shape}")
+	reference = np.asarray(model.reference)
+	owner = np.repeat(np.arange(model.blockCount), np.diff(model.firstNode))
+	arm = reference - areasAndCentroids(model)[1][owner]
+	motion = mechanism[owner, :2] + mechanism[owner, 2:] * np.column_stack([-arm[:, 1], arm[:, 0]])
+	size, largest = np.ptp(reference, axis=0).max(), np.hypot(*motion.T).max()
+	shown = reference + (0.05 * size / largest * motion if largest > 0 else 0)
+	low, high = _window(reference, shown)
+	width, height = (high - low) * min(_textWidth / (high - low)[0], 1.3 * _textWidth / (high - low)[1])
+	with _picture(path, width, height) as figure:
+		axes = figure.add_axes((0, 0, 1, 1), xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+		axes.axis("off")
+		axes.set_title(title, fontsize=9)
+		_drawBlocks(axes, model, shown)
 	return path
 
 

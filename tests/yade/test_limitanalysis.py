@@ -47,7 +47,8 @@ def test_blockSlidesOrOverturns(width, friction, expected):
 def test_dryWallsOfFerrisAndTinLoi(courses, expected, rigid, unit):
 	"""Rigid or meshed, in any unit of length."""
 	model, base = standing(
-		runningBond(5, courses, 0.4, 0.175, first='part'), rectangle(-0.2, -0.2, 2.2, 0), rigid=rigid, unit=unit, bonded=False, frictionAngle=atan(0.65)
+		runningBond(5, courses, 0.4, 0.175, first='part'), rectangle(-0.2, -0.2, 2.2, 0), rigid=rigid, unit=unit, bonded=False,
+		frictionAngle=atan(0.65)
 	)
 	assert sideways(model, base).load == pytest.approx(expected, abs=5e-6)
 
@@ -55,7 +56,9 @@ def test_dryWallsOfFerrisAndTinLoi(courses, expected, rigid, unit):
 def test_archOfMilankovitch():
 	"""Stands alone from 0.1075 of its radius on, and not below."""
 	def load(ratio):
-		model, supports = standing(arch(1, ratio, 40, chords=4), *[rectangle(x - 0.2, -0.2, x + 0.2, 0) for x in (-1, 1)], bonded=False, frictionAngle=atan(2))
+		model, supports = standing(
+			arch(1, ratio, 40, chords=4), *[rectangle(x - 0.2, -0.2, x + 0.2, 0) for x in (-1, 1)], bonded=False, frictionAngle=atan(2)
+		)
 		return sideways(model, supports).load
 
 	assert 0 < load(0.1076) < 0.001 < load(0.11)
@@ -90,8 +93,8 @@ def test_gluedBricksPulledAndSheared():
 
 
 def test_limitIsConsistent():
-	"""A wall of glued bricks that stands askew, weights and a group besides: stresses within the strength, blocks in equilibrium, and the mechanism's power:
-	what the joints dissipate is what the load and the constant forces put in."""
+	"""A wall of glued bricks that stands askew, weights and a group besides: stresses within the strength, blocks in equilibrium, and the mechanism's
+	power: what the joints dissipate is what the load and the constant forces put in."""
 	c, ft, mu = 0.05e6, 0.02e6, 0.7
 	O.reset()
 	O.materials.append(BlockMat(label='stone', young=20e9, poisson=0.2, density=density))
@@ -138,9 +141,13 @@ def test_turnedWallIsTheSameWall():
 		O.materials.append(BlockMat(label='stone', young=20e9, poisson=0.2, density=density))
 		model = BlockModel(thickness=0.5)
 		placed = runningBond(3, 4, 0.4, 0.175).turned(angle, about=(0.3, -2)).addTo(model, 'stone', rigid=True)
-		joints = placed.bond(model, [JointMat(material1='stone', material2='stone', kn=1e10, ks=5e9, cohesion=1e4, tension=1e4, frictionAngle=atan(0.6))])
+		joints = placed.bond(
+			model, [JointMat(material1='stone', material2='stone', kn=1e10, ks=5e9, cohesion=1e4, tension=1e4, frictionAngle=atan(0.6))]
+		)
 		turned = lambda x, y: bodyForces(model, (x * cos(angle) - y * sin(angle), x * sin(angle) + y * cos(angle)))
-		limits.append((largestMultiplier(model, turned(g, 0), turned(0, -g), fixed=placed.blocks[:3]).load, *[len(joints[name]) for name in ('bed', 'head')]))
+		limits.append(
+			(largestMultiplier(model, turned(g, 0), turned(0, -g), fixed=placed.blocks[:3]).load, *[len(joints[name]) for name in ('bed', 'head')])
+		)
 	assert limits[1] == pytest.approx(limits[0], rel=1e-9) and limits[2] == pytest.approx(limits[0], rel=1e-9)
 
 
