@@ -69,6 +69,7 @@ class Present:
 		self.points = np.repeat(self.joints, 2)
 
 
+@door(model='model')
 def areasAndCentroids(model):
 	"""Of every block, holes left out, from its boundary (Green) [m2, m]."""
 	ends = np.asarray(model.reference)[np.asarray(model.edgeNodes)]

@@ -136,8 +136,8 @@ def test_whatIsRightGoesThrough(model):
 
 #: Modules whose functions and classes a script calls with values of its own; the others are for scenarios' own machinery, or take what these return.
 forScripts = (
-	'bisection brickwork engines export jointsets layout loading outlines pace packing pictures picturesfields platen recording rubble snapshot specimen '
-	'voussoirs window'
+	'bisection brickwork engines export jointsets layout limitanalysis loading outlines pace packing pictures picturesfields platen recording rubble '
+	'snapshot specimen voussoirs window'
 ).split()
 #: What has no door: parts of others, and what is given to them by these.
 inner = {
