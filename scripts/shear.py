@@ -8,9 +8,9 @@ top edge by its area, displacement the mean slip across the mortar layer.
 	scripts/run.sh shear [sigma=0.1e6|0.5e6|1e6] [key=value ...]        about 7 s a seed
 
 Expected: peak 0.87 + 1.01 sigma, residual 0.73 sigma (N/mm2): the experiment's cohesion, friction and residual friction.
-joints=measured takes joints that soften with what was measured and nothing fitted (yadeblocks.softening), joints=calibrated a set that was fitted to the three
-peaks (scripts/calibrated-softening.json has the search); scatter= is the coefficient of variation of the joints' strengths, scatterLength= [m] their field's
-correlation length.
+joints=measured takes joints that soften with what was measured and nothing fitted (yadeblocks.softening). joints=calibrated is a set that was fitted to
+the three peaks with the tensile strength as measured, and joints within the mortar three times as strong (scripts/calibrated-softening.json has the search).
+scatter= is the coefficient of variation of the joints' strengths, scatterLength= [m] their field's correlation length.
 
 Size means sqrt(mean area) unless sizeMeaning=edge. Loading starts at the first crack (jump) and is a fifth as fast as said (approach) until the peak is passed;
 servo=true lets the unbalanced force set the speed instead. kn, ks, cohesion, tension, friction, residualFriction, dilation (angles in degrees), GfI and
@@ -50,11 +50,16 @@ moduli = scenario.usualParameters(unitYoung=16.7e9, mortarYoung=2.974e9)
 residualFriction = degrees(atan(experiments.residualFriction))
 shared = dict(kn=400e9, ks=200e9, dilation=0.) # Table 5
 measured = {name: softening.measured[name] for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII', 'GfIIPressure', 'lastingShare')}
-sets = { # all joints alike; angles in degrees
-	'paper': dict(shared, cohesion=3e6, tension=1.5e6, friction=45., residualFriction=36., GfI=0., GfII=0., GfIIPressure=0., lastingShare=0.), # Table 5
-	'measured': dict(measured, friction=degrees(softening.measured['frictionAngle']), residualFriction=residualFriction, dilation=0.),
+sets = { # angles in degrees
+	'paper': dict(
+		shared, cohesion=3e6, tension=1.5e6, friction=45., residualFriction=36., GfI=0., GfII=0., GfIIPressure=0., lastingShare=0., mortarStrengths=1.
+	), # Table 5
+	'measured': dict(
+		measured, friction=degrees(softening.measured['frictionAngle']), residualFriction=residualFriction, dilation=0., mortarStrengths=1.
+	),
 	'calibrated': dict(
-		shared, cohesion=1.3e6, tension=0.5e6, friction=50., residualFriction=residualFriction, GfI=20., GfII=150., GfIIPressure=0., lastingShare=1.
+		shared, cohesion=1e6, tension=1e6 * experiments.tensileStrength[0], friction=50., residualFriction=residualFriction, GfI=20., GfII=150.,
+		GfIIPressure=0., lastingShare=1., mortarStrengths=3.
 	),
 }
 brickJoint = dict(

@@ -110,6 +110,20 @@ def test_diagonalOfJointsThatHardlySoftenReachesItsLimit(tmp_path):
 	assert strength == pytest.approx(limit, rel=0.03) and found["path_at_peak"][0] < 1.9
 
 
+@needsYade
+def test_oneSetOfJointsServesTensionAndShear(tmp_path):
+	"""The set that was fitted to both, coarse and fast: strengths of the laboratory. Cracks stay along the bricks where joints within the mortar are
+	stronger."""
+	joints = f"joints={house / 'scripts/studies/couplet.joints.json'}"
+	pulled = measured(tmp_path, "tension", joints, "sizeMeaning=sqrtArea", "size=6e-3", "steps=2500", "tail=0.8", "vtk=false", "sheets=false")
+	assert pulled["peak_tensile_stress"][0] == pytest.approx(0.35, rel=0.05) and pulled["cracks_mortar-mortar_tension"][0] == 0
+	sheared = measured(tmp_path, "shear", joints, "size=5e-3", "steps=3000", "afterPeak=false", "vtk=false", "sheets=false")
+	assert sheared["peak_shear_stress"][0] == pytest.approx(1.375, rel=0.07)
+	for factor, some in ((1, True), (5, False)):
+		brittle = measured(tmp_path, "tension", f"mortarStrengths={factor}", "solver=events", "vtk=false", "sheets=false")
+		assert (brittle["cracks_mortar-mortar_tension"][0] > 0) == some
+
+
 def test_bisection():
 	low, high = bisect(lambda x: x < 0.3, 0, 1, 1e-3)
 	assert low < 0.3 <= high and high - low <= 1e-3 * high
