@@ -47,7 +47,7 @@ mortarJoint = dict(kn=348e9, ks=174e9, frictionAngle=radians(15), cohesion=1.4e6
 brickJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, cohesionResidual=3e6, tension=7.5e6) # Table 9
 sets = {
 	'paper': {'strengths': 1.0, 'stiffnesses': 1.0, 'GfI': 0.0, 'GfII': 0.0, 'lastingShare': 0.0},
-	'calibrated': {'strengths': 0.42, 'stiffnesses': 0.93, 'GfI': 200.0, 'GfII': 2000.0, 'lastingShare': 0.0}
+	'calibrated': {'strengths': 0.44, 'stiffnesses': 0.93, 'GfI': 200.0, 'GfII': 2000.0, 'lastingShare': 0.0}
 }
 velocity = 0.01e-3 # [m/s]
 
