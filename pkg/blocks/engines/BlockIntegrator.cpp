@@ -6,6 +6,7 @@
 #include <blocks/kernel/analysis/Energy.hpp>
 #include <blocks/kernel/step/Step.hpp>
 #include <blocks/kernel/step/TimeStep.hpp>
+#include <blocks/views/ContactViews.hpp>
 #include <core/EnergyTracker.hpp>
 #include <core/Omega.hpp>
 
@@ -134,6 +135,7 @@ void BlockIntegrator::stop(BlockModel& model, const blocks::StabilityWatch::Verd
 		restoreRigidBodies(scene, model);
 		model.writeCentroids(scene);
 		model.stiffnessChanged();
+		showContacts(scene, model); // they were those of a state that is no more
 		scene->iter = good;
 		movedAt = model.forcesAt = -1; // between two steps
 		scene->time              = watch.goodTime();

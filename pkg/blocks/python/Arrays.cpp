@@ -62,7 +62,7 @@ namespace {
 		std::vector<int>     both, nodes;
 		std::vector<Real>    force;
 		for (int i : a.contacts.order)
-			for (int k = a.contacts.range[i].first; k < a.contacts.range[i].last; ++k) {
+			for (int k = a.contacts.forcesOf(i).first; k < a.contacts.forcesOf(i).last; ++k) {
 				const blocks::PairForce& on    = a.contacts.forces[k];
 				const Vec2               first = on.force[0] + on.force[1];
 				both.insert(both.end(), a.state.contacts[i].block.begin(), a.state.contacts[i].block.end());

@@ -12,6 +12,11 @@ namespace {
 
 constexpr Real thickness = 0.7, dt = 0.3;
 
+/// What is known of the pairs of a batch, and what comes out.
+struct Batch : EdgeColumns, EdgeBatch {
+	static constexpr int size = EdgeColumns::size;
+};
+
 struct Dice {
 	std::mt19937 random { 4 };
 	Real         operator()(Real low, Real high) { return std::uniform_real_distribution<Real>(low, high)(random); }
@@ -24,7 +29,7 @@ struct Single {
 	Real                area, friction = 0, potential;
 	bool                touches;
 
-	Single(const EdgeBatch& b, int i)
+	Single(const Batch& b, int i)
 		: slip { b.slip[0][i], b.slip[1][i] }
 	{
 		FourPoints p, v;
@@ -64,7 +69,7 @@ struct Single {
 };
 
 /// Edges of length 0.4 to 1.4 that mostly overlap, with some slip that they remember.
-void fill(EdgeBatch& b, int count, Dice& dice)
+void fill(Batch& b, int count, Dice& dice)
 {
 	b.count = count;
 	for (int i = 0; i < count; ++i) {
@@ -91,13 +96,13 @@ TEST(EdgeBatch, LanesAgreeWithSinglePairsToTheBit)
 {
 	Dice dice;
 	int  touching = 0, sliding = 0;
-	auto batch = std::make_unique<EdgeBatch>();
+	auto batch = std::make_unique<Batch>();
 	for (int round = 0; round < 400; ++round) {
-		fill(*batch, 1 + round % EdgeBatch::size, dice);
+		fill(*batch, 1 + round % Batch::size, dice);
 		std::vector<Single> expected;
 		for (int i = 0; i < batch->count; ++i)
 			expected.emplace_back(*batch, i);
-		advanceEdges(*batch, thickness, dt);
+		advanceEdges(*batch, *batch, thickness, dt);
 		for (int i = 0; i < batch->count; ++i) {
 			const Single& one = expected[i];
 			ASSERT_EQ(batch->touches[i] > 0, one.touches) << round << ", " << i;

@@ -106,7 +106,7 @@ namespace {
 			}
 		}
 		for (int i : a.contacts.order)
-			for (int k = a.contacts.range[i].first; k < a.contacts.range[i].last; ++k)
+			for (int k = a.contacts.forcesOf(i).first; k < a.contacts.forcesOf(i).last; ++k)
 				sum.contact += (a.contacts.forces[k].force[0] + a.contacts.forces[k].force[1]).lpNorm<1>();
 		return sum;
 	}

@@ -114,7 +114,8 @@ template <class T, class Visit, Only<T, State> = 0> void forEachField(T& x, Visi
 	visit("displacement", x.displacement), visit("velocity", x.velocity), visit("inertia", x.inertia);
 	visit("opening", x.opening), visit("slip", x.slip), visit("sigma", x.sigma), visit("tau", x.tau);
 	visit("slipPlastic", x.slipPlastic), visit("uplift", x.uplift), visit("status", x.status), visit("released", x.released);
-	visit("groups", x.groups), visit("rigid", x.rigid), visit("contacts", x.contacts), visit("search", x.search), visit("lostFriction", x.lostFriction);
+	visit("groups", x.groups), visit("rigid", x.rigid), visit("contacts", x.contacts.all()), visit("search", x.search),
+		visit("lostFriction", x.lostFriction);
 	visit("viscosity", x.viscosity), visit("accounts", x.accounts), visit("softened", x.softened);
 	visit("further", x.further);
 }

@@ -3,6 +3,7 @@
 #include <blocks/kernel/model/BlockAssembly.hpp>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace blocks {
 namespace {
@@ -66,7 +67,7 @@ void sortContacts(BlockAssembly& a)
 	std::sort(f.order.begin(), f.order.end(), [&](int i, int j) { return a.state.contacts[i].block < a.state.contacts[j].block; });
 	f.sleep.clear();
 	for (int i : f.order)
-		f.sleep.push_back({ a.state.contacts[i].block, 0 });
+		f.sleep.push_back({ a.state.contacts[i].block });
 	f.ofBlock.assign(2 * f.order.size(), 0);
 	f.firstOfBlock.assign(f.order.empty() ? 0 : a.blockCount() + 1, 0);
 	for (int i : f.order)
@@ -74,9 +75,13 @@ void sortContacts(BlockAssembly& a)
 			++f.firstOfBlock[block + 1];
 	std::partial_sum(f.firstOfBlock.begin(), f.firstOfBlock.end(), f.firstOfBlock.begin());
 	std::vector<int> next = f.firstOfBlock;
+	f.rangeOf.resize(a.state.contacts.size());
 	for (int i : f.order) // sorted by both blocks: every block meets the others in their order
-		for (int block : a.state.contacts[i].block)
-			f.ofBlock[next[block]++] = i;
+		for (int side : { 0, 1 }) {
+			int& place         = next[a.state.contacts[i].block[side]];
+			f.ofBlock[place]   = i;
+			f.rangeOf[i][side] = place++;
+		}
 	f.blocksInContact.clear();
 	for (int b = 0; b + 1 < int(f.firstOfBlock.size()); ++b)
 		if (f.firstOfBlock[b] != f.firstOfBlock[b + 1]) f.blocksInContact.push_back(b);
@@ -97,8 +102,7 @@ void nameEdges(const BlockAssembly& a, EdgePair& e)
 
 void forgetActive(FreeContact& contact)
 {
-	contact.allRestUntil = 0;
-	contact.looks        = 0;
+	contact.restUntil.assign(contact.edges.size(), 0);
 	contact.rests.assign(contact.edges.size(), {});
 	contact.active.clear();
 	contact.active.reserve(contact.edges.size()); // nothing is allocated inside a step
@@ -108,16 +112,31 @@ void placeForces(BlockAssembly& a)
 {
 	FreeContacts& f    = a.contacts;
 	int           room = 0;
-	for (size_t place = 0; place < f.order.size(); ++place) {
-		const FreeContact& c = a.state.contacts[f.order[place]];
-		f.sleep[place].until = c.active.empty() ? c.allRestUntil : 0; // where pairs were found anew, it is 0
-	}
-	f.range.resize(a.state.contacts.size());
+	for (Sleep& s : f.sleep)
+		s.until = 0;
+	f.range.resize(f.ofBlock.size());
+	const auto& all = std::as_const(a.state.contacts);
 	for (int i : f.order) {
-		f.range[i] = { room, room };
-		room += int(a.state.contacts[i].edges.size());
+		f.setForcesOf(i, { room, room });
+		room += int(all[i].edges.size());
 	}
 	f.forces.resize(room);
+}
+
+void followEdition(BlockAssembly& a)
+{
+	FreeContacts& f = a.contacts;
+	if (f.columnsOf == a.state.contacts.edition()) return;
+	f.columnsOf          = a.state.contacts.edition();
+	const auto& all      = std::as_const(a.state.contacts);
+	const int   contacts = int(f.order.size());
+	f.inWork.resize((contacts + FreeContacts::run - 1) / FreeContacts::run);
+	for (int first = 0; first < contacts; first += FreeContacts::run) {
+		size_t pairs = 0;
+		for (int place = first; place < std::min(contacts, first + FreeContacts::run); ++place)
+			pairs += all[f.order[place]].edges.size();
+		f.inWork[first / FreeContacts::run].startAnew(pairs);
+	}
 }
 
 void rebuildContacts(BlockAssembly& a)
@@ -133,6 +152,7 @@ void rebuildContacts(BlockAssembly& a)
 		forgetActive(c);
 	}
 	placeForces(a);
+	++a.contacts.version; // whoever shows them, or had asked for their properties, has those of another state
 }
 
 } // namespace blocks

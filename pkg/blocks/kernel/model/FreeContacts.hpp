@@ -1,7 +1,12 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
+#include <atomic>
 #include <blocks/kernel/laws/EdgeContact.hpp>
 #include <blocks/kernel/laws/JointLaw.hpp>
+#include <blocks/kernel/model/EdgeColumns.hpp>
+#include <cmath>
+#include <limits>
+#include <vector>
 
 /// Contact of blocks that were never bonded, or whose joints have broken: they slide, part and meet again.
 ///
@@ -22,34 +27,92 @@ struct EdgePair {
 	std::array<Real, 2> sigma { 0, 0 }; ///< normal stress of the ends, tension positive [Pa]
 	std::array<Real, 2> tau { 0, 0 };   ///< shear stress; positive drags the first block along e_A [Pa]
 	Real                area      = 0;  ///< of each end, in the step of the stresses [m2]
-	Real                uplift    = 0;  ///< see raised(): what the joint had dilated that became this pair; below 0 what overlapped then [m]
 	Real                potential = 0;  ///< of the normal stresses, per kn and thickness, while the edges touch [m3]
+	Real                uplift    = 0;  ///< see raised(): what the joint had dilated that became this pair; below 0 what overlapped then [m]
 	EdgeShape           shape;
 };
 
-/// What is known of a pair of edges that does not touch.
+/// What is known of a pair of edges that does not touch: as long as its corners are close to where they were, it goes on not touching.
 struct Rest {
-	Real                until = 0; ///< it does not touch before the paths of the two blocks add up to this [m]
-	Real                free  = 0; ///< nor as long as its corners are this close to `from`, those of A and those of B taken together [m]
-	std::array<Vec2, 3> from;      ///< displacements of a1, b0, b1 less that of a0 when `free` was measured; none while it is 0 [m]
+	Real                free = 0; ///< so close, those of A and those of B taken together; 0 where nothing is known [m]
+	std::array<Vec2, 3> from;     ///< displacements of a1, b0, b1 less that of a0 when `free` was measured; none while it is 0 [m]
 };
+
+/// In place of when to ask a pair whether it rests on: it does not rest, it is in work.
+constexpr Real inWork = std::numeric_limits<Real>::infinity();
 
 /// All that happens between two blocks, apart from their bonds.
 struct FreeContact {
 	std::array<int, 2>    block { -1, -1 }; ///< first < second; -1: an empty slot
-	Real                  allRestUntil = 0; ///< the least `until` of those that do not touch [m]
 	std::vector<int>      active;           ///< those of `edges` that touch, as of the last step
 	std::vector<EdgePair> edges;            ///< sorted by edge
+	std::vector<Real>     restUntil;        ///< each of `edges` does not touch before the paths of the two blocks add up to this, or is inWork [m]
 	std::vector<Rest>     rests;            ///< of each of `edges`
-	unsigned              looks    = 0;     ///< since its pairs were found
 	Real                  friction = 0;     ///< dissipated so far [J]
 	JointParams           joint;            ///< residual values count; kn = 0 until they are known
 };
 
-/// A contact of which nothing touches.
+/// The contacts of a State, which know when somebody may have changed them: whoever gets hold of one that can be written, or puts another list in their
+/// place, makes a new edition. Columns that were filled from one edition are not used with another one, so nobody has to say that he changed something.
+class ContactList {
+public:
+	ContactList() = default;
+	ContactList(const ContactList& other)
+		: list(other.list)
+	{
+	}
+	ContactList(ContactList&& other) noexcept
+		: list(std::move(other.list))
+	{
+		other.changed();
+	}
+	ContactList& operator=(const ContactList& other)
+	{
+		list = other.list;
+		changed();
+		return *this;
+	}
+	ContactList& operator=(ContactList&& other) noexcept
+	{
+		list = std::move(other.list);
+		changed(), other.changed();
+		return *this;
+	}
+	~ContactList() = default;
+
+	const std::vector<FreeContact>& all() const { return list; }
+	std::vector<FreeContact>&       all() { return changed(), list; }
+	const FreeContact&              operator[](size_t i) const { return list[i]; }
+	FreeContact&                    operator[](size_t i) { return changed(), list[i]; }
+	auto                            begin() const { return list.begin(); }
+	auto                            begin() { return changed(), list.begin(); }
+	auto                            end() const { return list.end(); }
+	auto                            end() { return list.end(); }
+	size_t                          size() const { return list.size(); }
+	bool                            empty() const { return list.empty(); }
+
+	/// No two editions have the same number, whichever list they are of.
+	long edition() const { return number.load(std::memory_order_relaxed); }
+	/// For the step alone, which tells its columns what it tells the contact.
+	FreeContact& keepingEdition(size_t i) { return list[i]; }
+
+private:
+	static long next()
+	{
+		static std::atomic<long> last { 0 };
+		return ++last;
+	}
+	void changed() { number.store(next(), std::memory_order_relaxed); } // also by several threads at once, each with a contact of its own
+
+	std::vector<FreeContact> list;
+	std::atomic<long>        number { next() };
+};
+
+/// When to look at a contact.
 struct Sleep {
 	std::array<int, 2> block;
-	Real               until = 0; ///< nothing touches before the paths of the two blocks add up to this; 0: to be looked at [m]
+	Real               until  = 0; ///< no pair that rests touches before the paths of the two blocks add up to this [m]
+	int                inWork = 0; ///< pairs that do not rest
 };
 
 /// What the edges of a pair do to their grid points.
@@ -69,11 +132,18 @@ struct Odometer {
 	std::vector<Vec2> seenAt; ///< of grid points, displacements up to which the paths count [m]
 	std::vector<Real> path;   ///< of blocks: the largest move of any of their grid points, summed [m]
 
+	Real longest = 0; ///< the largest moves of all of them, summed [m]
+
 	// ---- what the velocities say since then, for any grid point and along either axis
 	int  steps     = 0; ///< since the paths were brought up to date
 	Real unseen    = 0; ///< it may have gone this far since then [m]
 	Real sinceLook = 0; ///< ... since neighbours were last looked for [m]
 	Real fastest   = 0; ///< largest velocity in the last step [m/s]
+
+	/// By how much more two paths may add up to than they do [m].
+	Real unseenOfTwo() const { return 2 * std::sqrt(Real(2)) * unseen; }
+	/// Two paths add up to no more than what they did, and what this has grown by since [m].
+	Real most() const { return 2 * longest + unseenOfTwo(); }
 };
 
 /// When neighbours were last looked for. It decides which contacts there are, and so masses; empty without general contact.
@@ -103,8 +173,13 @@ struct FreeContacts {
 	std::vector<int> blocksInContact;       ///< blocks that have any
 
 	// ---- forces of those pairs that touch
-	std::vector<ForceRange> range;  ///< by contact
-	std::vector<PairForce>  forces; ///< all of them
+	std::vector<PairForce>          forces;  ///< all of them
+	std::vector<ForceRange>         range;   ///< of each of `ofBlock`, so that a block finds its own side by side; both blocks of a contact have the same
+	std::vector<std::array<int, 2>> rangeOf; ///< contact -> where its two are
+
+	/// Those of a contact.
+	ForceRange forcesOf(int contact) const { return range[rangeOf[contact][0]]; }
+	void       setForcesOf(int contact, ForceRange r) { range[rangeOf[contact][0]] = range[rangeOf[contact][1]] = r; }
 
 	// ---- shapes, from the reference positions
 	std::vector<Real> sharpness, rounding;                ///< of grid points on outlines, see EdgeShape
@@ -112,6 +187,11 @@ struct FreeContacts {
 	std::vector<Real> depthLimit, meanEdge;               ///< of blocks [m]
 	Real              leastDepth = 0;                     ///< the least of depthLimit [m]
 	Real              mostAStep  = nearing::scaledMasses; ///< set with the masses, as a share of depthLimit
+
+	// ---- what a step works on
+	std::vector<EdgesInWork> inWork;        ///< of every `run` contacts of `order`
+	long                     columnsOf = 0; ///< the edition of the State's contacts that they hold, see followEdition()
+	static constexpr int     run       = 64;
 
 	// ---- how far things have moved
 	std::vector<Sleep> sleep; ///< of the contacts in `order`
@@ -137,6 +217,10 @@ void forgetActive(FreeContact&);
 
 /// Makes room for the forces of all contacts; again whenever pairs have come or gone. Nothing touches until the next step.
 void placeForces(BlockAssembly&);
+
+/// Has columns filled anew if somebody may have changed a contact since they were, with room for all pairs: nothing is allocated for them until the next
+/// change. The step asks for it.
+void followEdition(BlockAssembly&);
 
 /// Computes again what is not saved; the next step looks for neighbours anew.
 void rebuildContacts(BlockAssembly&);

@@ -72,9 +72,9 @@ struct State {
 	std::vector<RigidBlock>  rigid; ///< in the order of the blocks
 
 	// ---- blocks that touch without being bonded
-	std::vector<FreeContact> contacts; ///< an index stays valid while its contact lives
-	ContactMemory            search;
-	Real                     lostFriction = 0; ///< dissipated by contacts that are no more [J]
+	ContactList   contacts; ///< an index stays valid while its contact lives
+	ContactMemory search;
+	Real          lostFriction = 0; ///< dissipated by contacts that are no more [J]
 
 	Real            viscosity = 0; ///< c of the adaptive damping, what it has come to [1/s]
 	Accounts        accounts;

@@ -103,7 +103,7 @@ namespace {
 	/// Contacts of those pairs of blocks [sorted] that have none. Their properties are those of the two materials, if they are known.
 	void makeContacts(BlockAssembly& a, const std::vector<std::array<int, 2>>& wanted)
 	{
-		std::vector<FreeContact>& all  = a.state.contacts;
+		std::vector<FreeContact>& all  = a.state.contacts.all();
 		size_t                    slot = 0, made = 0;
 		for (size_t i = 0; i < wanted.size(); ++i) {
 			const auto& blocks = wanted[i];
@@ -328,7 +328,8 @@ namespace {
 	/// Lengths of the paths of those blocks that have contacts.
 	void followMotion(BlockAssembly& a)
 	{
-		FreeContacts& f = a.contacts;
+		FreeContacts& f       = a.contacts;
+		Real          longest = 0;
 		for (int b : f.blocksInContact) {
 			Real farthest = 0;
 			for (int n = a.mesh.firstNode[b]; n < a.mesh.firstNode[b + 1]; ++n) {
@@ -336,7 +337,9 @@ namespace {
 				f.odometer.seenAt[n] = a.state.displacement[n];
 			}
 			f.odometer.path[b] += std::sqrt(farthest);
+			longest = std::max(longest, std::sqrt(farthest));
 		}
+		f.odometer.longest += longest;
 		f.odometer.unseen = 0, f.odometer.steps = 0;
 	}
 

@@ -4,6 +4,7 @@
 #include <blocks/kernel/step/ContactSearch.hpp>
 #include <blocks/kernel/step/Contacts.hpp>
 #include <blocks/kernel/step/EdgeBatch.hpp>
+#include <cassert>
 #include <limits>
 
 namespace blocks {
@@ -15,8 +16,8 @@ namespace {
 	/// Whether edges touch follows from so many roundings of the corners' coordinates, at most.
 	constexpr Real roundings = 64 * std::numeric_limits<Real>::epsilon();
 
-	/// Of so many looks at a contact one measures how far its pairs are from touching. No result depends on it.
-	constexpr int measuredLook = 4;
+	/// Pairs in work that do not touch are asked every so many steps whether they can rest. No result depends on it.
+	constexpr int stepsUnasked = 16;
 
 	/// What the paths of two blocks add up to, at least and at most: they may have gone on since they were brought up to date [m].
 	struct Paths {
@@ -25,8 +26,8 @@ namespace {
 	Paths pathsOf(const BlockAssembly& a, const std::array<int, 2>& block)
 	{
 		const Odometer& o    = a.contacts.odometer;
-		const Real      path = o.path[block[0]] + o.path[block[1]], unseen = 2 * std::sqrt(Real(2)) * o.unseen; // two blocks, two axes
-		return { path - unseen, path + unseen };
+		const Real      path = o.path[block[0]] + o.path[block[1]];
+		return { path - o.unseenOfTwo(), path + o.unseenOfTwo() };
 	}
 
 	/// Where corners a1, b0, b1 have gone, as seen from a0 [m].
@@ -62,21 +63,9 @@ namespace {
 		return e.uplift != 0 ? corners(raised(points(c), e.uplift)) : c;
 	}
 
-	/// ... and how fast they move, for these corners [m/s].
-	ALWAYS Corners raisedVelocities(const BlockAssembly& a, const EdgePair& e, const Corners& x)
-	{
-		const Vec2* v = a.state.velocity.data();
-		Corners     c;
-		eachOf<4>([&](auto k) INLINE { c[k] = { v[e.node[k]].x(), v[e.node[k]].y() }; });
-		return e.uplift != 0 ? corners(raisedVelocity(points(x), e.uplift, points(c))) : c;
-	}
-
 	Real shearEnergy(const FreeContact& c, const EdgePair& e) { return c.joint.ks / 2 * e.area * (e.slip[0] * e.slip[0] + e.slip[1] * e.slip[1]); }
 
-	/// So many contacts are in work together, whatever the number of threads.
-	constexpr int atOnce = 256;
-
-	/// A few contacts on their way through a step. Pairs that may touch are collected, worked on side by side, and told what came out.
+	/// A run of contacts on its way through a step.
 	class Work {
 	public:
 		Work(BlockAssembly& assembly, Real stepLength)
@@ -85,183 +74,273 @@ namespace {
 		{
 		}
 
-		/// Contacts at places [first, last) of the order, at most atOnce of them.
-		void run(int first, int last)
+		/// The contacts of a run.
+		void advance(int run)
 		{
-			const FreeContacts& f = a.contacts;
-			for (int place = first; place < last; ++place)
-				if (const Sleep& s = f.sleep[place]; !(pathsOf(a, s.block).most < s.until)) awake[awakeCount++] = { f.order[place], place, 0 };
-			for (int i = -farAhead; i < awakeCount; ++i) {
-				if (i + farAhead < awakeCount) fetchContact(awake[i + farAhead].contact);
-				if (i + ahead >= 0 && i + ahead < awakeCount) fetchPairs(awake[i + ahead].contact);
-				if (i + near >= 0 && i + near < awakeCount) fetchCorners(awake[i + near].contact);
-				if (i >= 0) enter(i);
-			}
-			leave();
+			EdgesInWork& work = a.contacts.inWork[run];
+			if (work.anew || work.steps >= stepsUnasked || !(a.contacts.odometer.most() < work.until)) ask(run, work);
+			advance(work);
 		}
 
 		/// One contact, whether it sleeps or not.
-		void runOne(int contact)
+		void advanceOne(int contact)
 		{
-			awake[awakeCount++] = { contact, -1, 0 };
-			enter(0);
+			FreeContact& c = a.state.contacts[contact]; // columns of the whole scene are not of this edition any more
+			EdgeColumns  some;
+			ask(c, pathsOf(a, c.block), true);
+			told = -1;
+			for (int k = 0; k < int(c.edges.size()); ++k) {
+				if (c.restUntil[k] == inWork) add(contact, k, some);
+				if (some.count == EdgeColumns::size) advance(some);
+			}
+			if (some.count > 0) advance(some);
 			leave();
 		}
 
 	private:
-		// contacts lie all over the memory: what comes soon is fetched early, so many contacts ahead
-		static constexpr int farAhead = 12, ahead = 7, near = 3;
+		static constexpr int farAhead = 8, ahead = 4; ///< contacts
 
-		struct Awake {
-			int contact, place, touching; ///< place: in the order; touching: pairs, so far
-		};
-
-		BlockAssembly&            a;
-		const Real                dt;
-		std::array<Awake, atOnce> awake;
-		int                       awakeCount = 0;
-		EdgeBatch                 batch;
+		BlockAssembly& a;
+		const Real     dt;
+		EdgeBatch      batch;
 
 		template <class T> static void fetch(const T& what)
 		{
 			for (size_t line = 0; line < sizeof(T); line += 64)
 				__builtin_prefetch(reinterpret_cast<const char*>(&what) + line);
 		}
-		void fetchContact(int contact) const { fetch(a.state.contacts[contact]); }
-		void fetchPairs(int contact) const
+
+		/// Asks those whose rest is over, and now and then those in work that do not touch. Where some begin or end their rest, columns are filled
+		/// anew.
+		void ask(int run, EdgesInWork& work)
 		{
-			const FreeContact& c = a.state.contacts[contact];
-			for (int pair : c.active)
-				fetch(c.edges[pair]);
-		}
-		void fetchCorners(int contact) const
-		{
-			const FreeContact& c = a.state.contacts[contact];
-			for (int pair : c.active)
-				for (int corner : { 0, 2 }) {
-					const int n = c.edges[pair].node[corner]; // the other end of the edge is next to it more often than not
-					fetch(a.state.displacement[n]), fetch(a.state.velocity[n]), fetch(a.mesh.reference[n]);
-				}
+			FreeContacts&                      f     = a.contacts;
+			const int                          first = run * FreeContacts::run, last = std::min(int(f.order.size()), first + FreeContacts::run);
+			const bool                         all = work.steps >= stepsUnasked;
+			std::array<int, FreeContacts::run> asked; // places
+			int                                count = 0;
+			for (int place = first; place < last; ++place)
+				if (const Sleep& s = f.sleep[place]; work.anew || !(pathsOf(a, s.block).most < s.until) || (all && s.inWork > 0))
+					asked[count++] = place;
+			bool changed = work.anew;
+			for (int i = -farAhead; i < count; ++i) { // contacts lie all over the memory: what comes soon is fetched early
+				if (i + farAhead < count) fetch(a.state.contacts.keepingEdition(f.order[asked[i + farAhead]]));
+				if (i + ahead >= 0 && i + ahead < count)
+					__builtin_prefetch(a.state.contacts.keepingEdition(f.order[asked[i + ahead]]).restUntil.data());
+				if (i < 0) continue;
+				FreeContact& c = a.state.contacts.keepingEdition(f.order[asked[i]]);
+				Sleep&       s = f.sleep[asked[i]];
+				if (ask(c, pathsOf(a, s.block), all)) changed = true, s.inWork = 1; // they are counted below
+				s.until = c.restUntil.empty() ? inWork : *std::min_element(c.restUntil.begin(), c.restUntil.end());
+			}
+			Real free = std::numeric_limits<Real>::infinity();
+			for (int place = first; place < last; ++place)
+				free = std::min(free, f.sleep[place].until - pathsOf(a, f.sleep[place].block).most);
+			const Real now = f.odometer.most();
+			work.until     = std::isfinite(now) ? now + roundingShare * free : 0; // infinite where displacements were put somewhere
+			if (all) work.steps = 0;
+			if (!changed) return;
+			for (EdgeColumns& c : work.batches)
+				c.count = 0;
+			for (int place = first; place < last; ++place)
+				if (work.anew || f.sleep[place].inWork > 0) f.sleep[place].inWork = fill(f.order[place], work);
+			work.anew = false;
 		}
 
-		/// What all of them come to.
+		/// Those pairs of a contact whose rest is over, and if wanted those in work that do not touch. Whether some begin or end their rest.
+		bool ask(FreeContact& c, const Paths& path, bool all) const
+		{
+			bool changed = false;
+			for (int k = 0; k < int(c.edges.size()); ++k) {
+				Real& until = c.restUntil[k];
+				if (path.most < until && !(all && until == inWork && !c.edges[k].touching)) continue;
+				const bool rested = until != inWork;
+				until             = restOf(c, k, path);
+				changed |= rested != (until != inWork);
+			}
+			return changed;
+		}
+
+		/// Puts those pairs of a contact that are in work into columns. How many they are.
+		int fill(int contact, EdgesInWork& work) const
+		{
+			const FreeContact& c     = a.state.contacts.keepingEdition(contact);
+			int                count = 0;
+			for (int k = 0; k < int(c.edges.size()); ++k)
+				if (c.restUntil[k] == inWork) add(contact, k, roomIn(work)), ++count;
+			return count;
+		}
+
+		/// Until where a pair surely does not touch, or inWork.
+		Real restOf(FreeContact& c, int pair, const Paths& path) const
+		{
+			Rest&           r = c.rests[pair];
+			const EdgePair& e = c.edges[pair];
+			if (r.free > 0)
+				if (const Real left = leftOf(a, r, e); left > 0) return path.least + left;
+			r.free = 0;
+			if (e.touching || e.area > 0) return inWork;
+			const Corners x = raisedCorners(a, e);
+			if (edgeDepths(x).touch() > 0 && edgeGeometry(points(x), e.shape).active()) return inWork;
+			r.free = distanceOf(points(x), e);
+			if (!(r.free > 0)) return inWork;
+			r.from = movesOf(a, e);
+			return path.least + r.free;
+		}
+
+		/// How far the corners of a pair that does not touch may move until it does; 0 if that is not known [m].
+		static Real distanceOf(const FourPoints& p, const EdgePair& e)
+		{
+			const Real lever  = 1 + 2 * std::abs(e.uplift) / (p[1] - p[0]).norm(); // what is raised moves more where the edge turns
+			const Real extent = p[0].norm() + p[1].norm() + p[2].norm() + p[3].norm();
+			return roundingShare * freeDistance(p, e.shape) / lever - roundings * extent;
+		}
+
+		/// The first columns that are not full. They are filled one after another.
+		static EdgeColumns& roomIn(EdgesInWork& work)
+		{
+			const auto at
+				= std::find_if(work.batches.begin(), work.batches.end(), [](const EdgeColumns& c) { return c.count < EdgeColumns::size; });
+			if (at != work.batches.end()) return *at;
+			assert(work.batches.size() < work.batches.capacity()); // see EdgesInWork::startAnew
+			return work.batches.emplace_back();
+		}
+
+		void add(int contact, int pair, EdgeColumns& b) const
+		{
+			const int          lane = b.count++;
+			const FreeContact& c    = a.state.contacts.keepingEdition(contact);
+			const EdgePair&    e    = c.edges[pair];
+			const Vec2*        X    = a.mesh.reference.data();
+			if (lane == 0) b.raised = false;
+			b.contact[lane] = contact, b.pair[lane] = pair, b.node[lane] = e.node;
+			for (int k : { 0, 1, 2 }) {
+				b.fromX[k][lane] = X[e.node[k + 1]].x() - X[e.node[0]].x();
+				b.fromY[k][lane] = X[e.node[k + 1]].y() - X[e.node[0]].y();
+			}
+			for (int n = 0; n < 4; ++n)
+				b.sharpness[n][lane] = e.shape.sharpness[n];
+			for (int k : { 0, 1 }) {
+				b.rounding[k][lane] = e.shape.rounding[k], b.farRounding[k][lane] = e.shape.farRounding[k];
+				b.slip[k][lane] = e.slip[k];
+			}
+			b.depthLimit[lane] = e.shape.depthLimit, b.area[lane] = e.area;
+			b.kn[lane] = c.joint.kn, b.ks[lane] = c.joint.ks;
+			b.cohesion[lane] = c.joint.cohesionResidual, b.tanPhi[lane] = c.joint.tanPhiResidual;
+			b.uplift[lane] = e.uplift;
+			b.raised       = b.raised || e.uplift != 0;
+		}
+
+		/// A step of all that is in work.
+		void advance(EdgesInWork& work)
+		{
+			work.apart = false;
+			told       = -1;
+			for (EdgeColumns& c : work.batches) {
+				if (c.count == 0) break;
+				gather(c);
+				advanceEdges(c, batch, a.thickness, dt);
+				work.apart |= tell(c);
+			}
+			leave();
+			if (work.apart) ++work.steps;
+		}
+		/// ... of some columns, which are empty after it.
+		void advance(EdgeColumns& some)
+		{
+			gather(some);
+			advanceEdges(some, batch, a.thickness, dt);
+			tell(some);
+			some.count = 0;
+		}
+
+		/// Where the corners are and how fast they move.
+		void gather(const EdgeColumns& c)
+		{
+			const Vec2 *u = a.state.displacement.data(), *v = a.state.velocity.data();
+			for (int i = 0; i < c.count; ++i) {
+				const auto& node = c.node[i];
+				batch.px[0][i] = u[node[0]].x(), batch.py[0][i] = u[node[0]].y();
+				for (int k : { 0, 1, 2 })
+					batch.px[k + 1][i] = c.fromX[k][i] + u[node[k + 1]].x(), batch.py[k + 1][i] = c.fromY[k][i] + u[node[k + 1]].y();
+				for (int n = 0; n < 4; ++n)
+					batch.vx[n][i] = v[node[n]].x(), batch.vy[n][i] = v[node[n]].y();
+				__builtin_prefetch(&a.state.contacts.keepingEdition(c.contact[i]), 1);
+			}
+			if (c.raised) raise(c);
+			for (int i = 0; i < c.count; ++i)
+				fetch(a.state.contacts.keepingEdition(c.contact[i]).edges[c.pair[i]]);
+		}
+
+		FourPoints cornersOf(int lane) const
+		{
+			FourPoints p;
+			for (int n = 0; n < 4; ++n)
+				p[n] = { batch.px[n][lane], batch.py[n][lane] };
+			return p;
+		}
+		void raise(const EdgeColumns& c)
+		{
+			for (int i = 0; i < c.count; ++i) {
+				if (c.uplift[i] == 0) continue;
+				const FourPoints p = raised(cornersOf(i), c.uplift[i]);
+				FourPoints       v;
+				for (int n = 0; n < 4; ++n)
+					v[n] = { batch.vx[n][i], batch.vy[n][i] };
+				v = raisedVelocity(p, c.uplift[i], v);
+				for (int n : { 0, 1 })
+					batch.px[n][i] = p[n].x(), batch.py[n][i] = p[n].y(), batch.vx[n][i] = v[n].x(), batch.vy[n][i] = v[n].y();
+			}
+		}
+
+		// ---- telling the pairs, contact by contact
+		int  told = -1, touching = 0; ///< contact that is being told, and how many of its pairs touch so far
+		bool othersTouch = false;     ///< whether others of its pairs touch than did
+
 		void leave()
 		{
-			flush();
-			for (int i = 0; i < awakeCount; ++i) {
-				FreeContact& c = a.state.contacts[awake[i].contact];
-				c.active.resize(awake[i].touching);
-				ForceRange& range = a.contacts.range[awake[i].contact];
-				range.last        = range.first + awake[i].touching;
-				if (awake[i].place >= 0) a.contacts.sleep[awake[i].place].until = c.active.empty() ? c.allRestUntil : 0;
-			}
-			awakeCount = 0;
-		}
-
-		/// Looks at those pairs of a contact that may touch: those that do, and those whose rest is over.
-		void enter(int i)
-		{
-			FreeContact& c    = a.state.contacts[awake[i].contact];
-			const Paths  path = pathsOf(a, c.block);
-			++c.looks;
-			if (path.most < c.allRestUntil) { // only those that touch may have changed
-				for (size_t k = 0; k < c.active.size(); ++k)
-					look(i, c, c.active[k]);
-				return;
-			}
-			c.active.resize(c.edges.size()); // its capacity; the first ones are overwritten by those that touch
-			c.allRestUntil = std::numeric_limits<Real>::infinity();
+			if (told < 0) return;
+			const ForceRange was = a.contacts.forcesOf(told);
+			if (was.last != was.first + touching) a.contacts.setForcesOf(told, { was.first, was.first + touching });
+			FreeContact& c = a.state.contacts.keepingEdition(told);
+			if (!othersTouch && int(c.active.size()) == touching) return;
+			c.active.clear(); // its capacity is that of all pairs
 			for (int k = 0; k < int(c.edges.size()); ++k)
-				if (path.most < c.rests[k].until || goesOnResting(c, k, path))
-					c.allRestUntil = std::min(c.allRestUntil, c.rests[k].until);
-				else
-					look(i, c, k);
+				if (c.edges[k].touching) c.active.push_back(k);
 		}
 
-		/// Whether the corners of a pair are still close to where they were.
-		bool goesOnResting(FreeContact& c, int pair, const Paths& path) const
+		/// Whether there are pairs that do not touch.
+		bool tell(EdgeColumns& b)
 		{
-			Rest& r = c.rests[pair];
-			if (!(r.free > 0)) return false;
-			const Real left = leftOf(a, r, c.edges[pair]);
-			r.until         = path.least + left;
-			return left > 0;
-		}
-
-		/// Puts a pair into the batch unless it plainly does not touch, and did not.
-		void look(int i, FreeContact& c, int pair)
-		{
-			const EdgePair& e = c.edges[pair];
-			const Corners   x = raisedCorners(a, e);
-			if (!e.touching && !(e.area > 0) && !(edgeDepths(x).touch() > 0)) return rest(c, pair, x);
-
-			const int lane      = batch.count++;
-			batch.contact[lane] = i, batch.pair[lane] = pair;
-			const Corners v = raisedVelocities(a, e, x);
-			eachOf<4>([&](auto n) INLINE {
-				batch.px[n][lane] = x[n].x, batch.py[n][lane] = x[n].y;
-				batch.vx[n][lane] = v[n].x, batch.vy[n][lane] = v[n].y;
-				batch.sharpness[n][lane] = e.shape.sharpness[n];
-			});
-			eachOf<2>([&](auto k) INLINE {
-				batch.rounding[k][lane] = e.shape.rounding[k], batch.farRounding[k][lane] = e.shape.farRounding[k];
-				batch.slip[k][lane] = e.slip[k];
-			});
-			batch.depthLimit[lane] = e.shape.depthLimit, batch.area[lane] = e.area;
-			batch.kn[lane] = c.joint.kn, batch.ks[lane] = c.joint.ks;
-			batch.cohesion[lane] = c.joint.cohesionResidual, batch.tanPhi[lane] = c.joint.tanPhiResidual;
-			if (batch.count == EdgeBatch::size) flush();
-		}
-
-		/// A pair that does not touch: until where it need not be looked at.
-		void rest(FreeContact& c, int pair, const Corners& x)
-		{
-			EdgePair& e = c.edges[pair];
-			if (e.touching || e.area > 0) { // they have parted
-				c.friction += shearEnergy(c, e);
-				e.slip = e.sigma = e.tau = { 0, 0 };
-				e.area                   = 0;
-			}
-			e.touching = false;
-			Rest& r    = c.rests[pair];
-			r.until    = pathsOf(a, c.block).least;
-			if (c.looks % measuredLook == 1) { // pairs that come and go have no such distance: asking for it costs more than looking again
-				const FourPoints p      = points(x);
-				const Real       lever  = 1 + 2 * std::abs(e.uplift) / (p[1] - p[0]).norm(); // what is raised moves more where the edge turns
-				const Real       extent = p[0].norm() + p[1].norm() + p[2].norm() + p[3].norm();
-				r.free                  = roundingShare * freeDistance(p, e.shape) / lever - roundings * extent;
-				if (r.free > 0) r.from = movesOf(a, e), r.until += r.free;
-			}
-			c.allRestUntil = std::min(c.allRestUntil, r.until);
-		}
-
-		/// Works on what is in the batch and tells the pairs.
-		void flush()
-		{
-			if (batch.count == 0) return;
-			advanceEdges(batch, a.thickness, dt);
-			for (int lane = 0; lane < batch.count; ++lane) {
-				Awake&       of = awake[batch.contact[lane]];
-				FreeContact& c  = a.state.contacts[of.contact];
-				const int    i  = batch.pair[lane];
-				EdgePair&    e  = c.edges[i];
-				if (!(batch.touches[lane] > 0)) {
-					rest(c, i, raisedCorners(a, e));
+			bool apart = false;
+			for (int i = 0; i < b.count; ++i) {
+				FreeContact& c = a.state.contacts.keepingEdition(b.contact[i]);
+				EdgePair&    e = c.edges[b.pair[i]];
+				if (b.contact[i] != told) leave(), told = b.contact[i], touching = 0, othersTouch = false;
+				if (!(batch.touches[i] > 0)) {
+					apart     = true;
+					b.area[i] = b.slip[0][i] = b.slip[1][i] = 0;
+					if (e.touching || e.area > 0) { // they have parted
+						c.friction += shearEnergy(c, e);
+						e.slip = e.sigma = e.tau = { 0, 0 };
+						e.area                   = 0;
+						e.touching               = false;
+						othersTouch              = true;
+					}
 					continue;
 				}
-				if (!e.touching) c.rests[i] = {};
+				if (!e.touching) e.touching = othersTouch = true;
 				for (int k : { 0, 1 })
-					e.slip[k] = batch.slip[k][lane], e.sigma[k] = batch.sigma[k][lane], e.tau[k] = batch.tau[k][lane];
-				e.area = batch.area[lane], e.potential = batch.potential[lane], e.touching = true;
-				c.friction += batch.friction[lane];
-				PairForce& on = a.contacts.forces[a.contacts.range[of.contact].first + of.touching];
-				on.node       = e.node;
+					e.slip[k] = b.slip[k][i], e.sigma[k] = batch.sigma[k][i], e.tau[k] = batch.tau[k][i];
+				e.area = b.area[i], e.potential = batch.potential[i];
+				c.friction += batch.friction[i];
+				PairForce& on = a.contacts.forces[a.contacts.forcesOf(told).first + touching++];
+				on.node       = b.node[i];
 				for (int n = 0; n < 4; ++n)
-					on.force[n] = { batch.fx[n][lane], batch.fy[n][lane] };
-				if (e.uplift != 0) lowerForces(points(raisedCorners(a, e)), e.uplift, on.force);
-				c.active[of.touching++] = i;
+					on.force[n] = { batch.fx[n][i], batch.fy[n][i] };
+				if (b.uplift[i] != 0) lowerForces(cornersOf(i), b.uplift[i], on.force);
 			}
-			batch.count = 0;
+			return apart;
 		}
 	};
 
@@ -288,33 +367,31 @@ void setContactJoint(BlockAssembly& a, int contact, const JointParams& joint)
 
 void advanceContacts(BlockAssembly& a, Real dt, [[maybe_unused]] int threads)
 {
-	const int count = int(a.contacts.order.size()), parts = (count + atOnce - 1) / atOnce;
-	if (count == 0) return;
+	if (a.contacts.order.empty()) return;
+	followEdition(a);
+	const int runs = int(a.contacts.inWork.size());
 #pragma omp parallel num_threads(threads) if (threads > 1)
 	{
 		Work work(a, dt);
-#pragma omp for schedule(dynamic)
-		for (int part = 0; part < parts; ++part)
-			work.run(part * atOnce, std::min(count, (part + 1) * atOnce));
+#pragma omp for schedule(dynamic, 4)
+		for (int run = 0; run < runs; ++run)
+			work.advance(run);
 	}
 }
 
-void advanceContact(BlockAssembly& a, int contact, Real dt) { Work(a, dt).runOne(contact); }
+void advanceContact(BlockAssembly& a, int contact, Real dt) { Work(a, dt).advanceOne(contact); }
 
 void gatherContactForces(const BlockAssembly& a, int block, Vec2* force)
 {
 	const FreeContacts& f = a.contacts;
 	if (block + 1 >= int(f.firstOfBlock.size())) return; // it came after the last look for contacts
-	for (int i = f.firstOfBlock[block]; i < f.firstOfBlock[block + 1]; ++i) {
-		const int        contact = f.ofBlock[i];
-		const ForceRange range   = f.range[contact];
-		for (int k = range.first; k < range.last; ++k) {
+	for (int i = f.firstOfBlock[block]; i < f.firstOfBlock[block + 1]; ++i)
+		for (int k = f.range[i].first; k < f.range[i].last; ++k) {
 			const PairForce& on    = f.forces[k];
 			const int        first = on.node[0] >= a.mesh.firstNode[block] && on.node[0] < a.mesh.firstNode[block + 1] ? 0 : 2;
 			force[on.node[first]] += on.force[first];
 			force[on.node[first + 1]] += on.force[first + 1];
 		}
-	}
 }
 
 std::vector<Real> contactStiffness(const BlockAssembly& a)

@@ -5,48 +5,48 @@
 
 namespace blocks {
 
-WIDE void advanceEdges(EdgeBatch& b, Real thickness, Real dt)
+WIDE void advanceEdges(EdgeColumns& c, EdgeBatch& b, Real thickness, Real dt)
 {
 #pragma GCC ivdep
-	for (int i = 0, whole = (b.count + 3) / 4 * 4; i < whole; ++i) { // a few lanes of old numbers cost less than a loop of their own
+	for (int i = 0, whole = (c.count + 3) / 4 * 4; i < whole; ++i) { // a few lanes of old numbers cost less than a loop of their own
 		Corners   p, v, force;
 		EdgeShape shape;
 		eachOf<4>([&](auto n) INLINE {
 			p[n]               = { b.px[n][i], b.py[n][i] };
 			v[n]               = { b.vx[n][i], b.vy[n][i] };
 			force[n]           = { 0, 0 };
-			shape.sharpness[n] = b.sharpness[n][i];
+			shape.sharpness[n] = c.sharpness[n][i];
 		});
-		shape.rounding    = { b.rounding[0][i], b.rounding[1][i] };
-		shape.farRounding = { b.farRounding[0][i], b.farRounding[1][i] };
-		shape.depthLimit  = b.depthLimit[i];
+		shape.rounding    = { c.rounding[0][i], c.rounding[1][i] };
+		shape.farRounding = { c.farRounding[0][i], c.farRounding[1][i] };
+		shape.depthLimit  = c.depthLimit[i];
 
 		const EdgeGeometry g  = geometryOfEdges(p, shape);
-		const Real         kn = b.kn[i], ks = b.ks[i], area = thickness * g.area;
+		const Real         kn = c.kn[i], ks = c.ks[i], area = thickness * g.area;
 		pushEdges(p, shape, g, kn * thickness, force);
 		// where the area changes the springs keep their energy, so that a contact which grows and shrinks neither makes nor wears any
 		const bool some     = area > 0;
-		const Real ratio    = std::sqrt(b.area[i] / area);
+		const Real ratio    = std::sqrt(c.area[i] / area);
 		const Real regrown  = some ? ratio : 0;
 		Real       friction = 0;
 		eachOf<2>([&](auto k) INLINE {
-			const Real    pressure = kn * g.depth[k], slip = b.slip[k][i], before = ks * b.area[i] * slip * slip / 2;
+			const Real    pressure = kn * g.depth[k], slip = c.slip[k][i], before = ks * c.area[i] * slip * slip / 2;
 			const Real    bearing = some ? pressure : 0;
 			const bool    pressed = bearing > 0;
 			const EdgeEnd end     = endOfEdges<k>(p, g);
 			Real          ds      = 0;
 			eachOf<4>([&](auto n) INLINE { ds += dt * dot(end.slipGradient[n], v[n]); });
-			const Real old = slip * regrown, limit = (b.cohesion[i] + pressure * b.tanPhi[i]) / ks;
+			const Real old = slip * regrown, limit = (c.cohesion[i] + pressure * c.tanPhi[i]) / ks;
 			const Real moved = old + ds, least = moved < -limit ? -limit : moved, held = least > limit ? limit : least;
 			const Real now = pressed ? held : 0, drag = pressed ? ks * area * held : 0;
 			const Real done = (ks * area * old + drag) / 2 * ds, work = pressed ? done : 0;
 			eachOf<4>([&](auto n) INLINE { force[n] -= drag * end.slipGradient[n]; });
 			friction += work + before - ks * area * now * now / 2;
-			b.slip[k][i]  = now;
+			c.slip[k][i]  = now;
 			b.sigma[k][i] = -pressure;
 			b.tau[k][i]   = ks * now;
 		});
-		b.area[i]      = area;
+		c.area[i]      = area;
 		b.friction[i]  = friction;
 		b.potential[i] = potentialOfEdges(g);
 		b.touches[i]   = g.touches;

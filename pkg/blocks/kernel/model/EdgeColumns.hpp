@@ -1,0 +1,49 @@
+// yade-blocks, GPL-2.0-or-later
+#pragma once
+#include <array>
+#include <blocks/kernel/Types.hpp>
+#include <vector>
+
+/// Edge pairs that are worked on in every step, side by side: those that touch, and those of which is not known how far they are from it.
+/// What a step needs of them was copied from the State; EdgePair says what it is. It stays from step to step, until somebody else changes a pair or it is
+/// asked anew who rests.
+namespace blocks {
+
+/// Up to so many edge pairs. Arrays of four belong to the corners a0, a1, b0, b1, arrays of two to the ends of the overlap.
+struct EdgeColumns {
+	static constexpr int size = 16;
+	using Lane                = Real[size];
+
+	int                count = 0;
+	int                contact[size], pair[size]; ///< which edge pair of which contact
+	std::array<int, 4> node[size];                ///< grid points of the corners
+
+	// ---- what does not change while a pair is in work
+	alignas(64) Lane fromX[3] {}, fromY[3] {};                                          ///< a1, b0 and b1 as seen from a0, without stress [m]
+	alignas(64) Lane sharpness[4] {}, rounding[2] {}, farRounding[2] {}, depthLimit {}; ///< see EdgeShape
+	alignas(64) Lane kn {}, ks {}, cohesion {}, tanPhi {};                              ///< of the joint; residual values
+	alignas(64) Lane uplift {};
+	bool raised = false; ///< whether any uplift is not 0
+
+	// ---- from step to step
+	alignas(64) Lane slip[2] {}, area {};
+};
+
+/// The pairs of a run of contacts.
+struct EdgesInWork {
+	std::vector<EdgeColumns> batches;       ///< in the order of contacts and pairs
+	bool                     anew  = true;  ///< whether the columns are to be filled whatever they hold
+	bool                     apart = false; ///< whether some do not touch
+	int                      steps = 0;     ///< since those were asked whether they can rest
+	Real                     until = 0;     ///< no other pair comes to touch before Odometer::most() is this [m]
+
+	/// To be filled anew, from so many pairs at most.
+	void startAnew(size_t pairs)
+	{
+		const size_t wanted = (pairs + EdgeColumns::size - 1) / EdgeColumns::size;
+		if (wanted > batches.capacity()) batches.clear(), batches.reserve(wanted);
+		anew = true;
+	}
+};
+
+} // namespace blocks
