@@ -41,6 +41,8 @@ def signature(name, text):
 def page(kind):
 	"""The page of a class as reStructuredText."""
 	lines = [kind.__name__, "=" * len(kind.__name__), "", plain(kind.__doc__), ""]
+	base = next((base.__name__ for base in kind.__mro__[1:] if base.__name__ in names), None)
+	if base: lines += [f"What :doc:`{base}` has, it has, too.", ""]
 	own = {name: member for name, member in vars(kind).items() if not name.startswith("_")}
 	attributes = {name: member for name, member in own.items() if isinstance(member, property)}
 	for title, members in (("Attributes", attributes), ("Methods", {name: member for name, member in own.items() if callable(member) and member.__doc__})):

@@ -16,4 +16,5 @@ myst_enable_extensions = ["dollarmath"]
 html_math_renderer = "svg" # offline
 html_show_sphinx = html_copy_source = False
 highlight_language = "python3"
+html_static_path = ["custom.css"] # which the theme looks for: code is wrapped, not cut off
 exclude_patterns = ["examples"]

@@ -1,6 +1,9 @@
 # yade-blocks, GPL-2.0-or-later
-"""The figures of the manual: figures.py FOLDER draws them all as SVG."""
+"""The figures of the manual: yade -n -x py/manual/figures.py FOLDER draws them all."""
+import contextlib
+import runpy
 import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -133,6 +136,18 @@ def builders():
 	return figure
 
 
+def mechanism(path):
+	"""That of the example of limit analysis, which is run for it."""
+	import yadeblocks
+	from yade import O
+	from yadeblocks.pictures import drawMechanism
+	example = Path(yadeblocks.__file__).resolve().parents[2] / "scripts/examples/limit.py" # within YADE __file__ is YADE's
+	O.reset()
+	with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+		found = runpy.run_path(str(example))
+	drawMechanism(path, found["model"], found["limit"].mechanism)
+
+
 def _bounds(rings):
 	points = np.vstack(rings)
 	return (*points.min(axis=0), *points.max(axis=0))
@@ -145,6 +160,7 @@ def write(folder):
 	with rc_context({"font.size": 10, "mathtext.fontset": "dejavuserif", "svg.hashsalt": "manual"}):
 		for draw in (joint, law, bond, builders):
 			draw().savefig(folder / f"{draw.__name__}.svg", metadata={"Date": None})
+	mechanism(folder / "mechanism.png")
 
 
 if __name__ == "__main__" and len(sys.argv) > 1: write(sys.argv[1])

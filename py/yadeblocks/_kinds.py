@@ -54,6 +54,10 @@ def _isModel(value):
 	return not isinstance(value, type) and all(hasattr(value, name) for name in ("reference", "position", "segmentBlocks", "materialLabels"))
 
 
+def _isBlockModel(value):
+	return _isModel(value) and hasattr(value, "groupPushForce")
+
+
 def _areJoints(value):
 	if isinstance(value, str): return True
 	if isinstance(value, (bytes, dict)) or not hasattr(value, "__len__"): return False
@@ -108,6 +112,10 @@ kinds = {
 	"box": Kind("a rectangle (x0, y0, x1, y1)", _isBox, lambda value: _isBox(value, finite=False)),
 	"boxes": Kind("a list of rectangles (x0, y0, x1, y1)", _isListOf(lambda value: _areNumbers(value, 4))),
 	"model": Kind("a BlockModel or a Snapshot of one", _isModel),
+	"blockModel": Kind("a BlockModel", _isBlockModel),
+	"motions": Kind(
+		"a list of motions (vx, vy, rotation)", lambda value: _areNumbers(value, None, 3), lambda value: _areNumbers(value, None, 3, finite=False)
+	),
 	"throttled": Kind("a BlockModel, or what has its setThrottle", lambda value: not isinstance(value, type) and hasattr(value, "setThrottle")),
 	"layout": Kind("a Layout", lambda value: hasattr(value, "outlines") and hasattr(value, "pieces")),
 	"models": Kind("a list of Snapshots", _isListOf(_isModel)),

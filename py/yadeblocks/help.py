@@ -7,6 +7,7 @@
 """
 import ast
 import runpy
+import signal
 import sys
 import types
 from pathlib import Path
@@ -38,9 +39,13 @@ def explain(path):
 
 
 def check(path, *words):
-	"""Ends with code 2 and a sentence on stderr where a scenario refuses these words, key=value. Scripts without keys, and those that want YADE itself
-	before them, are not looked into."""
-	if not _hasParameters(Path(path)): return
+	"""Ends with code 2 and a sentence on stderr where a scenario refuses these words, key=value; scripts that want YADE itself before their keys are not
+	looked into. A script that reads no words at all has no keys: threads= alone is known then, which is YADE's own."""
+	if not _hasParameters(Path(path)):
+		unknown = [word for word in words if not word.startswith("threads=")]
+		if not unknown or "argv" in Path(path).read_text(): return
+		print(f"{Path(path).stem} has no keys, got {unknown[0]}", file=sys.stderr)
+		sys.exit(2)
 	from . import scenario
 	parameters = scenario.parameters
 
@@ -87,6 +92,7 @@ def _hasParameters(path):
 
 
 if __name__ == "__main__":
+	signal.signal(signal.SIGPIPE, signal.SIG_DFL) # quiet where the reader (head, say) has had enough
 	keys = [word for word in sys.argv[1:] if "=" in word]
 	for place in map(Path, (word for word in sys.argv[1:] if "=" not in word)):
 		if place.is_dir(): print(listing(place))

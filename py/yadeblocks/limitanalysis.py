@@ -22,8 +22,11 @@ from .export import areasAndCentroids
 #: 1 W by its multiplier.
 Limit = namedtuple('Limit', 'load sigma tau mechanism')
 
+#: By the size of the scene: what grid points of a rigid block may be off by where nothing has moved.
+roundings = 1e-12
 
-@door(model='model', acceleration='point')
+
+@door(model='blockModel', acceleration='point')
 def bodyForces(model, acceleration):
 	"""Mass times an acceleration [m/s2] for every block, at its centroid, (blocks, 2) [N]: weights with (0, -9.81)."""
 	from yade import O
@@ -32,44 +35,50 @@ def bodyForces(model, acceleration):
 	return (density * areas * model.thickness)[:, None] * np.asarray(acceleration, float)
 
 
-@door(model='model', growing='points', constant='points', fixed='nodes')
+@door(model='blockModel', growing='points', constant='points', fixed='nodes')
 def largestMultiplier(model, growing, constant=None, fixed=None):
 	"""The largest factor on the forces `growing`, besides which the forces `constant` act -> Limit.
 
 	growing, constant: forces on the blocks at their centroids, (blocks, 2) [N], `bodyForces` say; fixed: blocks that do not move. Grid points that groups
-	hold or drive do not move along their axes either.
+	hold or drive do not move along their axes either; those that a group pushes move as one, under its force. Nothing else acts: gravity, tractions and
+	stresses in situ of the model count for nothing, and viscous boundaries hold nothing.
 
 	Errors: ValueError where the constant forces cannot be held with any factor >= 0, where no factor is too large, and for arrays that do not fit the
-	model; RuntimeError for a model without joints, or with joints that have broken or soften."""
+	model; RuntimeError for a model without joints, that has moved, with blocks taken out, or with joints that have broken or soften."""
 	problem = _Problem(model, fixed)
 	problem.carry('growing', growing, problem.load(1 / max(np.abs(growing).max(), 1e-300)))
 	if constant is not None: problem.carry('constant', constant)
 	return problem.solved()
 
 
-@door(model='model', group='str', direction='point', constant='points', fixed='nodes')
+@door(model='blockModel', group='str', direction='point', constant='points', fixed='nodes')
 def largestForce(model, group, direction, constant=None, fixed=None):
 	"""The largest force of a group of the model on the blocks, by its component along a direction, whatever its distribution over the grid points -> Limit.
 
-	group: a name of BlockModel.groups; direction: (x, y) of any length > 0; constant, fixed and errors: as in `largestMultiplier`; ValueError for a group
-	that is not there, or that does not act along the direction."""
-	if group not in model.groups: raise ValueError(f'largestForce.group must be one of {", ".join(model.groups)}, got {group!r}')
+	group: a name of BlockModel.groups, held, driven or pushed (its force is what is asked for then); direction: (x, y) of any length > 0; constant, fixed
+	and errors: as in `largestMultiplier`; ValueError for a group that is not there, or that does not act along the direction."""
+	known = ', '.join(model.groups) or 'none: there are no groups'
+	if group not in model.groups: raise ValueError(f'largestForce.group must be one of {known}, got {group!r}')
 	direction = np.asarray(direction, float)
 	acts = np.array([axis in model.groupAxes(group) for axis in 'xy'])
 	if not (direction[acts] != 0).any():
 		raise ValueError(f'largestForce.direction must not be across the axes {model.groupAxes(group)} of {group!r}, got {tuple(direction)!r}')
-	problem = _Problem(model, fixed)
+	problem = _Problem(model, fixed, asked=group)
 	problem.count(group, direction / np.hypot(*direction), problem.load(1))
 	if constant is not None: problem.carry('constant', constant)
 	return problem.solved()
 
 
 class _Problem:
-	"""Equilibrium of every block that is not fixed, about its centroid. Columns: normal and shear stress of each contact point, a force of each held grid
-	point along each axis, the load. What the programme sees is scaled to numbers near 1."""
-	def __init__(self, model, fixed):
+	"""Equilibrium of every block that is not fixed, about its centroid, and of what pushes them. Columns: normal and shear stress of each contact point, a
+	force of each grid point of a group along each axis, the load. What the programme sees is scaled to numbers near 1."""
+	def __init__(self, model, fixed, asked=None):
 		self.model, self.blocks = model, model.blockCount
 		if not len(model.segmentBlocks): raise RuntimeError('limit analysis: there are no joints; BlockModel.bond() makes them')
+		if len(model.removedBlocks): raise RuntimeError(f'limit analysis: no block must have been taken out, got {shown(model.removedBlocks)}')
+		size, moved = np.ptp(np.asarray(model.reference), axis=0).max(), abs(np.asarray(model.position) - model.reference).max()
+		if moved > roundings * size:
+			raise RuntimeError(f'limit analysis: the model must be as it was built; grid points have moved by up to {moved:.3g} m')
 		changed = np.count_nonzero(~np.isin(model.pointStatus, (0, 3)))
 		if changed: raise RuntimeError(f'limit analysis: joints must be as they were built; {changed} contact points have broken or soften')
 		self.moves = np.ones(self.blocks, bool)
@@ -81,7 +90,7 @@ class _Problem:
 		self.entries, self.right, self.scale = [], np.zeros(3 * self.blocks), []
 		self.held = {} # (group, axis) -> columns
 		self._joints()
-		self._groups()
+		self._groups(asked)
 
 	def carry(self, name, forces, column=None):
 		"""Forces at centroids: a constant part, or with a column what it multiplies."""
@@ -154,7 +163,7 @@ class _Problem:
 			for side, sign in ((0, 1), (1, -1)):
 				self._force(both(model.segmentBlocks)[:, side], columns, places, sign * self.area[:, None] * direction)
 
-	def _groups(self):
+	def _groups(self, asked):
 		model, first = self.model, np.asarray(self.model.firstNode)
 		for group in model.groups:
 			nodes = np.asarray(model.groupNodes(group))
@@ -162,6 +171,10 @@ class _Problem:
 				columns = self.held[group, axis] = self._columns(len(nodes), 1, force=True)
 				unit = np.tile((axis == 'x', axis == 'y'), (len(nodes), 1)).astype(float)
 				self._force(np.searchsorted(first, nodes, side='right') - 1, columns, np.asarray(model.reference)[nodes], unit)
+			push = model.groupPushForce(group)
+			if push is not None and group != asked: # along its one axis
+				self.entries.append((np.full(len(columns), len(self.right)), columns, np.ones(len(columns))))
+				self.right = np.append(self.right, push)
 
 	def _columns(self, count, by, force):
 		self.scale += [(by, force)] * count

@@ -96,7 +96,7 @@ def drawCracks(path, model, magnification=None, window=None, title="", names=Non
 	return path
 
 
-@door(path='path', model='model', mechanism='sequence', title='str')
+@door(path='path', model='model', mechanism='motions', title='str')
 def drawMechanism(path, model, mechanism, title=""):
 	"""How rigid blocks move at once: a mechanism of `limitanalysis`, its largest displacement 5 % of the scene's size. mechanism: velocity of every block's
 	centroid and its rotation, (blocks, 3). Returns the path."""

@@ -1,5 +1,7 @@
 # yade-blocks, GPL-2.0-or-later
 """Pictures of all kinds and files for ParaView, of a layer of mortar that is torn."""
+from pathlib import Path
+
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import pictures, picturesfields
@@ -21,11 +23,12 @@ record = Recorder(path=lambda: model.groupTravelled('top'), stress=lambda: model
 record.after(lambda row: film.look(row.path / 1e-5, row.stress, O.time))
 O.dt, O.engines = 1e-4, loopList(alpha=0.5) + [record.engine(100)]
 O.run(5000, True)
-picturesfields.drawField('s1.png', film.peak, 's1') # contours: displacements and stresses
-picturesfields.drawJoints('opening.png', model, 'opening') # bars: sigma, tau, opening, slip
-picturesfields.drawCrosses('crosses.png', film.peak) # principal stresses
-picturesfields.drawSheet('sheet.png', model, title='at the end')
-picturesfields.drawReactions('reactions.png', film.peak)
-picturesfields.drawMovie('film.gif', film.states(), 's1')
-pictures.drawCracks('cracks.png', model)
-writeFilm('paraview', film, Snapshot(model, O.time)) # paraview/blocks.pvd and joints.pvd
+out = Path('out/film')
+picturesfields.drawField(out / 's1.png', film.peak, 's1') # contours: displacements and stresses
+picturesfields.drawJoints(out / 'opening.png', model, 'opening') # bars: sigma, tau, opening, slip
+picturesfields.drawCrosses(out / 'crosses.png', film.peak) # principal stresses
+picturesfields.drawSheet(out / 'sheet.png', model, title='at the end')
+picturesfields.drawReactions(out / 'reactions.png', film.peak)
+picturesfields.drawMovie(out / 'film.gif', film.states(), 's1')
+pictures.drawCracks(out / 'cracks.png', model)
+writeFilm(out, film, Snapshot(model, O.time)) # blocks.pvd, joints.pvd, contacts.pvd

@@ -1,5 +1,7 @@
 # yade-blocks, GPL-2.0-or-later
 """A scene that is saved and loaded goes on with the same bits."""
+from pathlib import Path
+
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks.engines import loopList
@@ -14,10 +16,11 @@ model.drive('top', nodesWhere(model, lambda x, y: y > 0.1 - 1e-9), 'y', velocity
 model.insert()
 O.dt, O.engines = 1e-5, loopList(alpha=0.3)
 O.run(100, True)
-O.save('middle.yade.bz2')
+Path('out/saving').mkdir(parents=True, exist_ok=True)
+O.save('out/saving/middle.yade.bz2')
 O.run(100, True)
 bits = model.fingerprint()
-O.load('middle.yade.bz2')
+O.load('out/saving/middle.yade.bz2')
 model = O.bodies[0].shape.model # the loaded one
 O.run(100, True)
 assert model.fingerprint() == bits

@@ -74,6 +74,30 @@ def test_scriptsWithoutKeys(tmp_path):
 	assert run.stdout == "  bare\n  mine  A pile.\nA pile.\n\nIt has no keys.\n"
 
 
+def test_keysThatAScriptWithoutKeysDoesNotRead():
+	run = called(house / "scripts/run.sh", "examples/first", "threads=1", "size=3")
+	assert run.returncode == 2 and run.stdout == "" and run.stderr == "first has no keys, got size=3\n"
+
+
+def test_helpReadInPart():
+	"""A reader that has seen enough (head) is no error of ours."""
+	run = called("bash", "-c", f"'{house}/scripts/run.sh' shear help | head -c 20; exit ${{PIPESTATUS[0]}}")
+	assert run.stdout == "Shear of a masonry c" and run.stderr == ""
+
+
+def test_manualFindsTheModulesWithoutHelp(tmp_path):
+	"""Figures and pages of classes are made by YADE with our modules, also where nobody has set PYTHONPATH."""
+	for folder in ("scripts/examples", "py/manual", "bin"):
+		(tmp_path / folder).mkdir(parents=True)
+	shutil.copy(house / "scripts/manual.sh", tmp_path / "scripts")
+	for name, text in {"scripts/setup.sh": "", "bin/yade": f'echo "$4 $PYTHONPATH" >> {tmp_path}/calls'}.items():
+		(tmp_path / name).write_text("#!/bin/sh\n" + text + "\n")
+		(tmp_path / name).chmod(0o755)
+	environment = {**{key: value for key, value in os.environ.items() if key != "PYTHONPATH"}, "PATH": f"{tmp_path}/bin:{os.environ['PATH']}"}
+	subprocess.run([tmp_path / "scripts/manual.sh"], capture_output=True, env=environment) # ends at Sphinx, for want of pages
+	assert (tmp_path / "calls").read_text() == "".join(f"py/manual/{name}.py {tmp_path}/py\n" for name in ("figures", "classes"))
+
+
 # ---- the first build
 
 

@@ -197,14 +197,14 @@ def test_everyDoorSaysWhatIsWrong():
 
 class _Stands:
 	"""Something with the attributes that kinds ask for."""
-	reference = position = segmentBlocks = materialLabels = outlines = pieces = states = peak = groupby = setThrottle = ()
+	reference = position = segmentBlocks = materialLabels = groupPushForce = outlines = pieces = states = peak = groupby = setThrottle = ()
 
 
 _right = {
 	**dict.fromkeys(('finite', 'float', 'whole', 'notNegative'), 1), 'flag': False, 'str': 'a', 'path': 'a', 'file': 'a', 'point': (0, 1),
-	'numbers': [0, 1], 'points': [(0, 1)], 'polygon': box, 'polygons': [], 'box': (0, 0, 1, 1), 'boxes': [], 'sequence': [], 'mapping': {},
-	'mappingOrNone': None, 'function': len, 'functionOfPlace': len, 'nodes': [0], 'joints': 'a',
-	**dict.fromkeys(('model', 'throttled', 'layout', 'film', 'table'), _Stands()), 'models': []
+	'numbers': [0, 1], 'points': [(0, 1)], 'motions': [(0, 1, 2)], 'polygon': box, 'polygons': [], 'box': (0, 0, 1, 1), 'boxes': [], 'sequence': [],
+	'mapping': {}, 'mappingOrNone': None, 'function': len, 'functionOfPlace': len, 'nodes': [0], 'joints': 'a',
+	**dict.fromkeys(('model', 'blockModel', 'throttled', 'layout', 'film', 'table'), _Stands()), 'models': []
 }
 
 

@@ -1,6 +1,6 @@
 # yade-blocks, GPL-2.0-or-later
 """Limit analysis against limits on paper, published limits of walls and arches, and itself: equilibrium, strength, and the power of its mechanism."""
-from math import atan, cos, pi, sin
+from math import atan, cos, nan, pi, sin
 
 import numpy as np
 import pytest
@@ -8,6 +8,8 @@ import pytest
 from scenes import *
 from yadeblocks.brickwork import runningBond
 from yadeblocks.limitanalysis import bodyForces, largestForce, largestMultiplier
+from yadeblocks.pictures import drawMechanism
+from yadeblocks.snapshot import Snapshot
 from yadeblocks.specimen import nodesWhere, rectangle
 from yadeblocks.voussoirs import arch
 
@@ -92,6 +94,45 @@ def test_gluedBricksPulledAndSheared():
 		assert load == pytest.approx(2e6 * 50 + 0.8 * 5e7, rel=1e-9)
 
 
+@pytest.mark.parametrize('push', [0., 3e5])
+def test_pushedGroupsPushAndHoldNothing(push):
+	"""A platen on two bricks: friction under its force and the weight; the upper brick topples about its corner, which the platen, held flat, resists."""
+	mu = 0.4
+	O.reset()
+	O.materials.append(BlockMat(label='stone', young=20e9, poisson=0.2, density=density))
+	model = BlockModel(thickness=0.5)
+	for y in (0, 0.1):
+		model.addRegion(rectangle(0, y, 0.2, y + 0.1), 'stone', zoneSize=0.1)
+	model.bond([JointMat(material1='stone', material2='stone', kn=1e10, ks=5e9, bonded=False, frictionAngle=atan(mu))])
+	model.drive('base', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
+	model.push('platen', nodesWhere(model, lambda x, y: y > 0.2 - 1e-9), 'y', -push)
+	weight, side = bodyForces(model, (0, -g)), [[0, 0], [1, 0]]
+	found = largestMultiplier(model, side, weight)
+	assert found.load == pytest.approx(mu * (push - weight[1, 1]), rel=1e-9) and found.mechanism[1, 2] == pytest.approx(0, abs=1e-9)
+	assert largestForce(model, 'platen', (0, 1), weight).load == pytest.approx(-weight[1, 1], rel=1e-9) # lifts the upper brick
+
+
+def test_stackOnATiltedPlane():
+	"""Bricks one upon the other: of the stacks above each joint the first to slide or to topple, by statics."""
+	for width, count, mu in ((0.3, 3, 0.7), (0.3, 5, 0.1), (0.5, 2, 0.24)):
+		stack = [rectangle(0, 0.25 * i, width, 0.25 * (i + 1)) for i in range(count)]
+		model, base = standing(stack, rectangle(-1, -0.5, 2, 0), bonded=False, frictionAngle=atan(mu))
+		assert sideways(model, base).load == pytest.approx(min(mu, width / (0.25 * count)), rel=1e-9)
+
+
+def test_archOfThreeBlocksUnderAPointLoad():
+	"""Three thick voussoirs that do not slide. Down on the middle one: a straight thrust line to either springing stays within them, so any load is held.
+	Upwards: less than the weight of all."""
+	model, supports = standing(arch(1, 0.3, 3, chords=1), *[rectangle(x - 0.3, -0.2, x + 0.3, 0) for x in (-1, 1)], bonded=False, frictionAngle=atan(2))
+	middle = np.argmax([np.asarray(model.reference)[model.firstNode[i]:model.firstNode[i + 1], 1].mean() for i in range(3)])
+	down = np.zeros((model.blockCount, 2))
+	down[middle, 1] = -1
+	with pytest.raises(ValueError, match='no load is too large'):
+		largestMultiplier(model, down, fixed=supports)
+	weight = bodyForces(model, (0, -g))
+	assert largestMultiplier(model, -down, weight, fixed=supports).load < -weight[:3, 1].sum()
+
+
 def test_limitIsConsistent():
 	"""A wall of glued bricks that stands askew, weights and a group besides: stresses within the strength, blocks in equilibrium, and the mechanism's
 	power: what the joints dissipate is what the load and the constant forces put in."""
@@ -162,13 +203,33 @@ def test_refusals():
 		largestMultiplier(model, weight[:1], fixed=base)
 	with pytest.raises(ValueError, match=r'fixed must be blocks of the model, 0 to 1, got \[2\]'):
 		largestMultiplier(model, weight, fixed=[2])
-	with pytest.raises(ValueError, match='largestForce.group must be one of'):
-		largestForce(model, 'roof', (0, 1))
 	with pytest.raises(TypeError, match='growing must be a list of points'):
 		largestMultiplier(model, 3.)
 	with pytest.raises(ValueError, match='direction must not be across the axes y'):
 		largestForce(pulled(), 'top', (1, 0))
+	with pytest.raises(ValueError, match='largestForce.group must be one of none: there are no groups, got'):
+		largestForce(model, 'roof', (0, 1))
+	with pytest.raises(TypeError, match='largestMultiplier.model must be a BlockModel, got <yadeblocks.snapshot'):
+		largestMultiplier(Snapshot(model), weight)
+	for wrong, error in (([[0, 0, nan]] * 2, ValueError), (3., TypeError), ([[0, 1]] * 2, TypeError)):
+		with pytest.raises(error, match=r'drawMechanism.mechanism must be a list of motions \(vx, vy, rotation\), got'):
+			drawMechanism('none.png', model, wrong)
 	bare = BlockModel(thickness=1)
 	bare.addRigid(rectangle(0, 0, 1, 1), 'stone')
 	with pytest.raises(RuntimeError, match=r'there are no joints; BlockModel.bond\(\) makes them'):
 		largestMultiplier(bare, [[0, 1]])
+
+
+def test_modelsThatHaveMovedOrLostBlocks():
+	model = pulled(bonded=False, frictionAngle=0.5)
+	model.insert()
+	assert largestForce(model, 'top', (0, 1)).load == 0 # as it was built
+	model.displacement[:] += 1e-3
+	with pytest.raises(RuntimeError, match='must be as it was built; grid points have moved by up to 0.001 m'):
+		largestMultiplier(model, bodyForces(model, (g, 0)))
+	model = pulled(bonded=False, frictionAngle=0.5)
+	model.insert()
+	model.release('top')
+	model.remove([1])
+	with pytest.raises(RuntimeError, match=r'no block must have been taken out, got \[1\]'):
+		largestMultiplier(model, bodyForces(model, (g, 0)))

@@ -173,6 +173,11 @@ namespace {
 			on[dof % 2] = true;
 		return string(on[0] ? "x" : "") + (on[1] ? "y" : "");
 	}
+	py::object pushForce(BlockModel& model, const string& name)
+	{
+		const MotionGroup& group = model.group(name);
+		return group.drive == MotionGroup::Drive::force ? py::object(group.target) : py::object();
+	}
 	Real     velocity(BlockModel& model, const string& name) { return model.group(name).velocity; }
 	Real     travelled(BlockModel& model, const string& name) { return model.group(name).travelled; }
 	Real     work(BlockModel& model, const string& name) { return model.group(name).work; }
@@ -401,6 +406,10 @@ void defineSupports(PythonModel& c)
 	             "Moment about a point (x, y) [m] of the forces that a group puts on the blocks, counter-clockwise, in the last step [N m].")
 		.def("groupNodes", &nodesOf, (arg("name")), "Grid points of a group, in ascending order. A copy.")
 		.def("groupAxes", &axesOf, (arg("name")), "Axes along which a group acts: 'x', 'y' or 'xy'.")
+		.def("groupPushForce",
+	             &pushForce,
+	             (arg("name")),
+	             "Force that a group is pushed by once its ramp is over [N]; None of one that is held or driven.")
 		.def("groupVelocity", &velocity, (arg("name")), "Present velocity of a group [m/s].")
 		.def("groupTravelled", &travelled, (arg("name")), "Displacement of a group so far [m].")
 		.def("groupWork", &work, (arg("name")), "Work that a group has done on the blocks [J].")
