@@ -31,10 +31,12 @@ run() { # a command whose output matters only if it fails
 }
 share() { # ninja's lines -> how far it is: in place on a terminal, else a line for every fifth; nothing where nothing is to be done
 	local line said=no last=0 part
+	building() { [ $said = yes ] || { said=yes; say "building the plugin in build/ (the first time takes some minutes)"; }; }
+	[ -f build/libyadeblocks.so ] || building # ninja itself is silent until its first step is done, half a minute on a busy machine
 	while IFS= read -r line; do # awk would wait for 4096 bytes
 		echo "$line" >> "$log"
 		[[ "$line" =~ ^\[([0-9]+)/([0-9]+)\]\ (Building|Linking) ]] || continue
-		[ $said = yes ] || { said=yes; say "building the plugin in build/ (the first time takes some minutes)"; }
+		building
 		part=$((5 * BASH_REMATCH[1] / BASH_REMATCH[2]))
 		if [ -t 2 ]; then printf '\ryade-blocks: %s of %s steps done ' "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}" >&2
 		elif [ $part -gt $last ]; then last=$part; say "${BASH_REMATCH[1]} of ${BASH_REMATCH[2]} steps done"

@@ -113,7 +113,7 @@ def fresh(tmp_path):
 		"cmake": f'case "$1" in -S) touch build/build.ninja; echo -- Configuring ;; '
 		f'--build) test ! -f fail || {{ echo "error: no such type"; exit 1; }}; '
 		f'test ! -f nothing || {{ echo "[2/2] Re-checking globbed directories..."; exit; }}; '
-		f'{steps} ;; esac', "apt-get": 'echo "apt-get $*" >> apt'
+		f'{steps}; touch build/libyadeblocks.so ;; esac', "apt-get": 'echo "apt-get $*" >> apt'
 	}.items():
 		(tmp_path / "bin" / name).write_text("#!/bin/sh\n" + text + "\n")
 		(tmp_path / "bin" / name).chmod(0o755)
@@ -144,6 +144,14 @@ def test_progressComesWhileItBuilds(fresh, tmp_path):
 	for line in run.stderr:
 		if "2 of 5 steps" in line: (tmp_path / "seen").touch()
 	assert run.wait() == 0
+
+
+def test_buildThatGoesOnSaysSo(fresh, tmp_path):
+	"""One that was broken off, before its first step is done: that may be half a minute."""
+	(tmp_path / "build").mkdir()
+	(tmp_path / "build/build.ninja").touch()
+	(tmp_path / "nothing").touch()
+	assert fresh("--brief").stderr == "yade-blocks: building the plugin in build/ (the first time takes some minutes)\n"
 
 
 def test_buildThatFailsShowsWhy(fresh, tmp_path):
