@@ -115,5 +115,8 @@ with Session(p) as session:
 	session.write()
 	session.picture('cracks.png', pictures.drawCracks, model, title='Diagonal compression', names=joints)
 	session.picture('sheet.png', picturesfields.drawSheet, film.peak, title='Diagonal compression, at the peak')
-	session.picture('curve.png', pictures.drawCurve, session.results.curves, 'path_mm', 'load_kN', ('shortening of the diagonal [mm]', 'load [kN]'))
+	session.picture(
+		'curve.png', pictures.drawCurve, session.results.curves, 'path_mm', 'load_kN', ('shortening of the diagonal [mm]', 'load [kN]'),
+		[pictures.Reference('limit analysis', limit * area / 0.707 / 1e3)], 'Diagonal compression'
+	)
 scenario.waitIfBatch()
