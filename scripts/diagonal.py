@@ -1,4 +1,5 @@
 # yade-blocks, GPL-2.0-or-later
+# needs: python3-scipy
 """Diagonal compression of a small wall (ASTM E519, RILEM LUMB6): shear strength from the largest load along a diagonal.
 
 Two bricks by seven courses, nearly square, bed and head joints without thickness that soften. The wall stands on a corner, as in the machine: one diagonal is

@@ -2,7 +2,7 @@
 # Builds the manual: scripts/manual.sh. It is then in build/manual/html/index.html and needs no network.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/setup.sh --brief python3-sphinx python3-myst-parser python3-shapely
+scripts/setup.sh --brief python3-sphinx python3-myst-parser python3-shapely python3-scipy
 export PYTHONPATH="$PWD/py${PYTHONPATH:+:$PYTHONPATH}"
 [ -v HOME ] || export HOME=~ # YADE does not start without
 rm -rf build/manual

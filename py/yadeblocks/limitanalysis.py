@@ -116,8 +116,7 @@ class _Problem:
 
 	def solved(self):
 		"""The last column, the load, as large as it may be."""
-		from scipy.optimize import linprog
-		from scipy.sparse import coo_array
+		linprog, coo_array = _scipy()
 		rows, columns, values = (np.concatenate(part) for part in zip(*self.entries))
 		stress = max(self.cohesion.max(), self.tension.max(), np.abs(self.right).max() / self.area.mean()) or 1
 		force = stress * self.area.mean()
@@ -184,3 +183,12 @@ class _Problem:
 		arm = places - self.centroids[blocks]
 		for axis, values in enumerate((forces[:, 0], forces[:, 1], arm[:, 0] * forces[:, 1] - arm[:, 1] * forces[:, 0])):
 			self.entries.append((3 * blocks + axis, columns, values))
+
+
+def _scipy():
+	try:
+		from scipy.optimize import linprog
+		from scipy.sparse import coo_array
+	except ImportError as error:
+		raise ImportError('limit analysis needs scipy: scripts/install.sh python3-scipy') from error
+	return linprog, coo_array

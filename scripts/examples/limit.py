@@ -1,4 +1,5 @@
 # yade-blocks, GPL-2.0-or-later
+# needs: python3-scipy
 """How far a dry wall may be tilted: limit analysis, and the mechanism in a picture."""
 from math import atan, degrees
 

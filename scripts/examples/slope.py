@@ -1,4 +1,5 @@
 # yade-blocks, GPL-2.0-or-later
+# needs: python3-shapely
 """A slope cut by bedding, cross joints and a fault, under its own weight."""
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *

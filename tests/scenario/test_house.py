@@ -30,3 +30,14 @@ def test_noStrangeTopLevel():
 	if listed.returncode: pytest.skip('no git checkout')
 	top = {name.split('/')[0] for name in listed.stdout.split()}
 	assert {name for name in top if not name.startswith('.')} <= {'CMakeLists.txt', 'pkg', 'py', 'scripts', 'tests', 'README.md', 'LICENSE', 'CHANGELOG.md'}
+
+
+@pytest.mark.parametrize('path', sorted((house / 'scripts').glob('*.py')) + sorted((house / 'scripts/examples').glob('*.py')), ids=lambda path: path.stem)
+def test_scriptsSayWhichPackagesTheyNeed(path):
+	"""scripts/run.sh installs what stands in a script's second line; on a bare machine nothing else is there."""
+	text = path.read_text()
+	needed = {'limitanalysis': 'scipy', 'packing': 'scipy', 'jointsets': 'shapely', 'rubble': 'shapely', 'Mortared': 'shapely'}
+	imports = '\n'.join(re.findall(r'^from yadeblocks.*|^import .*', text, re.M))
+	wanted = {f'python3-{package}' for name, package in needed.items() if re.search(rf'\b{name}\b', imports)}
+	said = re.findall(r'\A#.*\n# needs: (.*)', text)
+	assert wanted <= set(' '.join(said).split())
