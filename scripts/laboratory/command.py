@@ -6,11 +6,14 @@ import json
 import math
 import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 from yadeblocks import scenario
 
 from .jobs import Job, Jobs
+from .study import plain as asWord
 
 commonKeys = {"seed": 1, "seeds": 5, "jobs": os.cpu_count() or 1, "limit": 1800.0, "retry": False, "scheduler": "", "tls": "", "out": "", "quantities": ""}
 commonRules = {"seed": scenario.notNegative, "seeds": scenario.atLeastOne, "jobs": scenario.atLeastOne, "limit": scenario.positive}
@@ -32,7 +35,7 @@ class Command:
 
 	NAME is a scenario in scripts/, or the path of one's own; where a file of targets says the scenario of each experiment, any name."""
 	def __init__(self, house, kind, name, words, keys, rules, stream=None, engine=None):
-		self.house, self.kind, self.script = Path(house), kind, name
+		self.house, self.kind, self.script, self.asked = Path(house), kind, name, set()
 		own, theirs = {**commonKeys, **keys}, []
 		mine = []
 		for word in words:
@@ -75,8 +78,19 @@ class Command:
 		"""The settings of a scenario, without ParaView files unless they are asked for."""
 		return {"vtk": False, **settings} if re.search(r"\bvtk\b", self.path(name).read_text()) else settings
 
+	def refuseKeys(self, points, script):
+		"""StudyError where the scenario refuses the keys of every point, which is known without a run. What only YADE can tell passes."""
+		if script in self.asked: return
+		self.asked.add(script)
+		for point in points:
+			words = [f"{key}={asWord(value)}" for key, value in point.items()]
+			asked = subprocess.run([sys.executable, "-m", "yadeblocks.help", self._place(script), *words], capture_output=True, text=True)
+			if asked.returncode != 2 or not asked.stderr.strip(): return
+		raise StudyError("study: " + asked.stderr.strip().splitlines()[-1])
+
 	def measure(self, points, seeds, script=None):
 		"""Runs the points (settings) over the seeds, what is not there yet; for each point its records by seed."""
+		if script or self.hasScript(self.script): self.refuseKeys(points, script or self.script)
 		asked = [[Job(script or self.script, point, seed) for seed in seeds] for point in points]
 		self.runs.do([job for jobs in zip(*asked) for job in jobs]) # seed by seed, so that an early end leaves all points
 		return [{job.seed: self.runs.record(job) for job in jobs} for jobs in asked]

@@ -58,8 +58,8 @@ def noise(words, *names):
 @pytest.fixture
 def studied(tmp_path):
 	(tmp_path / "scripts").mkdir(), (tmp_path / "py/yadeblocks").mkdir(parents=True)
-	(tmp_path / "scripts/mine.py").write_text("")
-	(tmp_path / "scripts/other.py").write_text("")
+	(tmp_path / "scripts/mine.py").write_text("# reads sys.argv\n")
+	(tmp_path / "scripts/other.py").write_text("# reads sys.argv\n")
 
 	def start(kind, function, *words, name="mine"):
 		engine = Answers(function)
@@ -83,7 +83,7 @@ def slowSteps(exact, cracked=7):
 
 def test_slowStepsAreKnownToWhatTheyShow(studied, tmp_path):
 	"""Half as many steps and less damping say what the slow run is known to: an exact peak within it agrees, one beyond it does not."""
-	(tmp_path / "scripts/tension.py").write_text("")
+	(tmp_path / "scripts/tension.py").write_text("# reads sys.argv\n")
 	slow, half, less = (slowSteps(2)({"steps": s, "alpha": a})["peak_stress"] for s, a in ((2000, 0.95), (1000, 0.95), (2000, 0.8)))
 	known = slow * (abs(slow / half - 1) + abs(slow / less - 1))
 	for exact, agrees in (slow - 0.99 * known, True), (slow + 0.99 * known, True), (slow + 1.01 * known, False):
@@ -356,6 +356,20 @@ def test_badInputSaysWhatIsWrong(studied, kind, words, said):
 		studied(kind, function, *words)
 
 
+def test_keysThatTheScenarioRefusesCostNoRun(studied, tmp_path, monkeypatch):
+	"""As scripts/run.sh says it, before a single process is started; one point that is refused does not stop the others."""
+	monkeypatch.setenv("PYTHONPATH", str(house / "py"))
+	(tmp_path / "scripts/mine.py"
+		).write_text("from yadeblocks import scenario\nscenario.parameters({'kn': scenario.Key(1., 'stiffness', 'Pa/m', scenario.positive)})\n")
+	none = lambda words: pytest.fail("a run was started")
+	with pytest.raises(command.StudyError, match="mine has no parameter km"):
+		studied(ensemble, none, "km=3")
+	with pytest.raises(command.StudyError, match="mine.kn must be positive, got -2"):
+		studied(ensemble, none, "kn=-1,-2")
+	made, runs, _ = studied(ensemble, lambda words: {"peak": 1.0}, "kn=-1,2", "seeds=2")
+	assert len(runs) == 4
+
+
 def test_unknownScenario(studied):
 	with pytest.raises(command.StudyError, match="there is no scenario wood"):
 		studied(ensemble, lambda words: {}, name="wood")
@@ -372,7 +386,7 @@ def commandsOfTheManual():
 def test_commandsOfTheManual(studied, words, tmp_path):
 	"""Each is carried out, with runs that a stand-in answers; the keys that the runs get are the scenario's."""
 	kind, name, *keys = words
-	(tmp_path / f"scripts/{name}.py").write_text("")
+	(tmp_path / f"scripts/{name}.py").write_text("# reads sys.argv\n")
 	asked = subprocess.run([sys.executable, "-m", "yadeblocks.help", house / f"scripts/{name}.py"], capture_output=True, text=True,
 				env={**os.environ, "PYTHONPATH": str(house / "py")})
 	known = set(re.findall(r"^  (\w+)=", asked.stdout, re.M))
