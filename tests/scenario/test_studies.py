@@ -1,5 +1,6 @@
 # yade-blocks, GPL-2.0-or-later
 """Studies of many runs, of scenarios whose answers are known: an engine that answers at once stands in for the workers."""
+import ast
 import json
 import math
 import os
@@ -11,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from yadeblocks import curves, scenario
+from yadeblocks import curves, experiments, scenario
 
 house = Path(curves.__file__).resolve().parents[2]
 sys.path.insert(0, str(house / "scripts"))
@@ -354,6 +355,17 @@ def test_badInputSaysWhatIsWrong(studied, kind, words, said):
 
 	with pytest.raises(command.StudyError, match=said):
 		studied(kind, function, *words)
+
+
+def test_theCoupletsJointsAreThoseThatShearHas():
+	"""The one set for tension and shear stands in a file, which scenarios take, and as joints=calibrated in shear: the numbers are the same."""
+	ours = json.loads((house / "scripts/studies/couplet.joints.json").read_text())["parameters"]
+	sets = [node for node in ast.walk(ast.parse((house / "scripts/shear.py").read_text())) if isinstance(node, ast.Dict)]
+	[calibrated] = [value for node in sets for key, value in zip(node.keys, node.values) if getattr(key, "value", None) == "calibrated"]
+	written = {word.arg: word.value.value for word in calibrated.keywords if isinstance(word.value, ast.Constant)}
+	same = {"cohesion", "friction", "GfI", "GfII", "mortarStrengths"}
+	assert {name: ours[name] for name in same} == {name: written[name] for name in same}
+	assert ours["tension"] == pytest.approx(1e6 * experiments.tensileStrength[0]) # as shear has it
 
 
 def test_keysThatTheScenarioRefusesCostNoRun(studied, tmp_path, monkeypatch):
