@@ -69,8 +69,11 @@ print("COST " + json.dumps(dict(us=1e6 * cpu / steps, wall_us=1e6 * wall / steps
 def measure(folder, threads, **wish):
 	"""One run of the scene with the plugin of a checkout."""
 	environment = dict(
-		os.environ, COST=json.dumps(wish), PYTHONPATH=str(folder / "py"), YADEBLOCKS_PLUGIN=str(folder / "build/libyadeblocks.so"),
-		OMP_WAIT_POLICY="passive"
+		os.environ,
+		COST=json.dumps(wish),
+		PYTHONPATH=str(folder / "py"),
+		YADEBLOCKS_PLUGIN=str(folder / "build/libyadeblocks.so"),
+		GOMP_SPINCOUNT="1000" # as scripts/run.sh
 	)
 	script = root / "out/cost/scene.py"
 	run = subprocess.run(["yade", "-n", "-x", "-j", str(threads), str(script)], env=environment, capture_output=True, text=True)

@@ -113,8 +113,8 @@ follow(BlockModel&       model,
 	}
 	std::vector<blocks::Gauge> functionals;
 	for (long k = 0; k < lengthOf(gauges); ++k) {
-		for (const char* name : { "axis", "below", "above" })
-			if (!PyObject_HasAttrString(py::object(gauges[k]).ptr(), name))
+		for (const char* attribute : { "axis", "below", "above" })
+			if (!PyObject_HasAttrString(py::object(gauges[k]).ptr(), attribute))
 				throw std::invalid_argument("BlockModel.follow.gauges must be a list of Gauges, got " + shown(gauges));
 		const int axis = py::extract<int>(gauges[k].attr("axis"));
 		functionals.emplace_back();

@@ -13,6 +13,7 @@
 #include <core/InteractionContainer.hpp>
 #include <core/Omega.hpp>
 #include <limits>
+#include <set>
 
 namespace yade {
 
@@ -122,17 +123,24 @@ bool BlockModel::isIn(const Scene* scene) const
 int BlockModel::bond(const vector<shared_ptr<JointMat>>& list, Real tolerance)
 {
 	requireOpen("BlockModel.bond");
-	blocks::BlockAssembly& a         = assembly;
-	const int              materials = int(materialLabels.size());
-	auto                   found     = blocks::detectSegments(a, tolerance);
-	if (!list.empty())
-		for (const blocks::Segment& g : found) {
-			const string &first = materialLabels[a.mesh.blockMaterial[g.block[0]]], &second = materialLabels[a.mesh.blockMaterial[g.block[1]]];
+	blocks::BlockAssembly& a           = assembly;
+	const int              materials   = int(materialLabels.size());
+	auto                   found       = blocks::detectSegments(a, tolerance);
+	const auto             materialsOf = [&](const std::array<int, 2>& block) -> std::array<int, 2> {
+                return { a.mesh.blockMaterial[block[0]], a.mesh.blockMaterial[block[1]] };
+	};
+	if (!list.empty()) {
+		std::set<std::array<int, 2>> touching;
+		for (const blocks::Segment& g : found)
+			touching.insert(materialsOf(g.block));
+		for (const auto& [one, other] : touching) {
+			const string &first = materialLabels[one], &second = materialLabels[other];
 			if (!jointBetween(list, first, second))
 				throw std::invalid_argument(
 					"BlockModel.bond: joints has no JointMat for the pair of materials \"" + std::min(first, second) + "\" and \""
 					+ std::max(first, second) + "\", whose blocks touch");
 		}
+	}
 	for (const auto& joint : list) // a label that no block has is a mistake
 		for (const string& label : { joint->material1, joint->material2 })
 			if (std::find(materialLabels.begin(), materialLabels.end(), label) == materialLabels.end())
@@ -145,25 +153,31 @@ int BlockModel::bond(const vector<shared_ptr<JointMat>>& list, Real tolerance)
 		const int first = index(joint->material1), second = index(joint->material2), kind = a.addKind(blocks::neverBonded(joint->params()));
 		a.joints.ofMaterials[first * materials + second] = a.joints.ofMaterials[second * materials + first] = kind;
 	}
-	if (!list.empty())
-		for (size_t pair = 0; pair < a.joints.pairs.size(); ++pair) {
-			const auto& block = a.joints.pairs[pair].block;
-			setJoint(
-				int(pair), *jointBetween(list, materialLabels[a.mesh.blockMaterial[block[0]]], materialLabels[a.mesh.blockMaterial[block[1]]]));
+	if (!list.empty()) {
+		const auto& pairs = a.joints.pairs;
+		for (size_t pair = 0, next; pair < pairs.size(); pair = next) { // many have the same two materials one after another
+			const auto of = materialsOf(pairs[pair].block);
+			for (next = pair + 1; next < pairs.size() && materialsOf(pairs[next].block) == of;)
+				++next;
+			setJoints(pairs[pair].first, pairs[next - 1].last, *jointBetween(list, materialLabels[of[0]], materialLabels[of[1]]));
 		}
+	}
 	return int(a.joints.pairs.size());
 }
 
 void BlockModel::setJoint(int pair, const JointMat& joint, const vector<shared_ptr<JointMat>>& all)
 {
-	const blocks::JointParams         params    = joint.params();
-	const blocks::SofteningParams     softening = joint.softening();
 	const std::lock_guard<std::mutex> lock(complaintMutex);
 	// all kinds at once, before any thread reads one of them: a list that grows later would move
 	for (const auto& other : all)
 		assembly.addKind(other->params(), other->softening());
 	const auto& p = assembly.joints.pairs[pair];
-	assembly.setJoints(p.first, p.last, params, joint.bonded ? blocks::Joint::intact : blocks::Joint::unbonded, softening);
+	setJoints(p.first, p.last, joint);
+}
+
+void BlockModel::setJoints(int first, int last, const JointMat& joint)
+{
+	assembly.setJoints(first, last, joint.params(), joint.bonded ? blocks::Joint::intact : blocks::Joint::unbonded, joint.softening());
 	stiffnessChanged();
 }
 

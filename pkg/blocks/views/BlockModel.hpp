@@ -111,6 +111,9 @@ public:
 	// clang-format on
 
 private:
+	/// Of joints [first, last).
+	void setJoints(int first, int last, const JointMat&);
+
 	std::vector<blocks::Polygon> regions;
 
 	vector<Real> knownStiffness, zoneStiffness;

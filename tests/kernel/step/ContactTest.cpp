@@ -1,6 +1,8 @@
 // yade-blocks, GPL-2.0-or-later
 #include <Specimens.hpp>
+#include <blocks/kernel/model/ContactDetection.hpp>
 #include <numeric>
+#include <set>
 
 using namespace specimens;
 
@@ -45,6 +47,7 @@ void bondedAcross(BlockAssembly& a, Real opening, Real slip)
 	for (int k : { 0, 1 }) {
 		std::fill(a.joints.columns.bondOpening[k].begin(), a.joints.columns.bondOpening[k].end(), opening);
 		std::fill(a.joints.columns.bondSlip[k].begin(), a.joints.columns.bondSlip[k].end(), slip);
+		std::fill(a.joints.columns.matched.begin(), a.joints.columns.matched.end(), false);
 	}
 }
 
@@ -249,6 +252,41 @@ TEST(ContactDetection, RefusesABlockWithinAnother)
 		expectRefusal([&] { within(square, diamond, innerFirst); }, { "blocks 0 and 1 overlap" });
 		EXPECT_NO_THROW(within(hook, small, innerFirst)); // in its box, not in it
 	}
+}
+
+TEST(UnjoinedBlocks, AreThoseThatDetectionFindsBesideTheJoined)
+{
+	// Two tessellations, each bonded by itself, half a percent of an edge apart, and a loose stone in contact with both and with nothing else.
+	BlockAssembly a = voronoi(1.7, 0.9, 6, 4, stone(), elasticJoint(1, 1), 0.4);
+	addGrid(a, { 1.7 + 5e-4, 0.1 }, 0.5, 0.6, 3, 4);
+	addGrid(a, { 0.2, 0.9 }, 1.8, 0.3, 7, 2);
+	std::set<std::array<int, 2>> expected;
+	for (const Segment& g : detectSegments(a, 0.01))
+		expected.insert(g.block);
+	for (const Pair& pair : a.joints.pairs)
+		expected.erase(pair.block);
+	ASSERT_GT(expected.size(), 8u);
+	std::set<std::array<int, 2>> found;
+	for (const Unjoined& u : unjoinedBlocks(a)) {
+		found.insert(u.block);
+		EXPECT_NEAR(u.gap, u.block[1] == a.blockCount() - 2 ? 5e-4 : 0, 1e-9);
+	}
+	EXPECT_TRUE(found == expected);
+	bondAll(a, elasticJoint(1, 1));
+	for (const Unjoined& u : unjoinedBlocks(a)) // bonded with the narrow tolerance: those across the gap are left
+		EXPECT_EQ(u.block[1], a.blockCount() - 2);
+}
+
+TEST(UnjoinedBlocks, WhatComesAfterTheBondMustNotOverlap)
+{
+	const BlockAssembly bonded = voronoi(1.7, 0.9, 3, 2, stone(), elasticJoint(1, 1), 0.4);
+	EXPECT_TRUE(unjoinedBlocks(bonded).empty());
+	BlockAssembly across = bonded, within = bonded;
+	addGrid(across, { 0.4, 0.3 }, 0.7, 0.2, 1, 1);
+	expectRefusal([&] { unjoinedBlocks(across); }, { "overlap" });
+	const Vec2 middle = within.centroid(0);
+	addGrid(within, { middle.x(), middle.y() }, 1e-3, 1e-3, 1, 1);
+	expectRefusal([&] { unjoinedBlocks(within); }, { "overlap" });
 }
 
 // ---- kinematics

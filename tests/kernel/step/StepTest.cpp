@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <Specimens.hpp>
+#include <functional>
 
 using namespace specimens;
 
@@ -161,6 +162,50 @@ TEST(JointsInBatches, SameBitsAsPointByPoint)
 		}
 	EXPECT_GT(broke, 500);
 	EXPECT_GT(slid, 500);
+}
+
+TEST(JointsInBatches, WhereEdgesMatchTheFirstOneSaysAll)
+{
+	// Batches of matching edges read fewer columns. The same bits as by way of all columns.
+	for (unsigned seed = 0; seed < 10; ++seed) {
+		BlockAssembly a = randomState({ "everything at once", 1e-4, 3, 0.3, 0.2, 0.1 }, seed), b = a;
+		auto&         matched = b.joints.columns.matched;
+		ASSERT_GT(std::count(matched.begin(), matched.end(), true), 2);
+		std::fill(matched.begin(), matched.end(), false);
+		advanceJoints(a, Brittle {});
+		advanceJoints(b, Brittle {});
+		expectSameJoints(a, b);
+	}
+}
+
+TEST(JointsInBatches, EdgesMatchWhereTheyDoInAllJointsOfABatch)
+{
+	// One joint of the second batch is different, in one of the ways there are.
+	const BlockAssembly                                    whole = voronoi(1.7, 0.9, 6, 4, stone(), elasticJoint(1, 1), 0.4);
+	const int                                              joint = Joints::batch + 5;
+	const auto                                             node  = whole.joints.segments[joint].node;
+	const std::vector<std::function<void(BlockAssembly&)>> ways {
+		[&](BlockAssembly& a) { a.joints.segments[joint].s1[0] = 0.25; },
+		[&](BlockAssembly& a) { a.joints.segments[joint].s1[1] = 0.75; },
+		[&](BlockAssembly& a) { a.joints.segments[joint].s2[0] = 0.75; },
+		[&](BlockAssembly& a) { a.joints.segments[joint].s2[1] = 0.25; },
+		[&](BlockAssembly& a) { a.mesh.reference[node[0]].x() += 1e-9; },
+		[&](BlockAssembly& a) { a.mesh.reference[node[3]].y() += 1e-9; },
+		[&](BlockAssembly& a) {
+			a.joints.inSituOpening.assign(a.joints.count(), { 0, 0 });
+			a.joints.inSituSlip.assign(a.joints.count(), { 0, 0 });
+			a.joints.inSituSlip[joint][1] = 1e-9;
+		},
+	};
+	ASSERT_GE(whole.joints.columns.matched.size(), 2u);
+	for (char matched : whole.joints.columns.matched)
+		EXPECT_TRUE(matched);
+	for (const auto& way : ways) {
+		BlockAssembly a = whole;
+		way(a);
+		a.rebuild();
+		EXPECT_FALSE(a.joints.columns.matched[1]);
+	}
 }
 
 TEST(JointsInBatches, ALawOfOnesOwnIsAskedAtEveryPoint)

@@ -8,17 +8,41 @@ namespace {
 
 	Vec2 meanOf(const std::vector<Vec2>& x, const std::array<int, 3>& node) { return (x[node[0]] + x[node[1]] + x[node[2]]) / 3; }
 
-	/// Square of the distance from a point to a block's outline, in the reference positions.
-	Real squareToOutline(const BlockAssembly& a, int block, const Vec2& p)
-	{
-		Real least = std::numeric_limits<Real>::infinity();
-		for (int e = a.mesh.firstEdge[block]; e < a.mesh.firstEdge[block + 1]; ++e) {
-			const Vec2 from = a.mesh.reference[a.mesh.edgeNodes[e][0]], along = a.mesh.reference[a.mesh.edgeNodes[e][1]] - from;
-			const Real s = std::min(Real(1), std::max(Real(0), (p - from).dot(along) / along.squaredNorm()));
-			least        = std::min(least, (p - from - s * along).squaredNorm());
+	/// Looks for the point of a block that is farthest from its outline, in the reference positions.
+	class Innermost {
+	public:
+		Innermost(const BlockAssembly& assembly, int ofBlock)
+			: a(assembly)
+			, first(a.mesh.firstEdge[ofBlock])
+			, last(a.mesh.firstEdge[ofBlock + 1])
+			, nearest(first)
+		{
 		}
-		return least;
-	}
+		/// Whether a point is farther than all before. Neighbours are near the same edge: asked first, it saves most of them all others.
+		bool isFarther(const Vec2& p)
+		{
+			Real least = squareTo(nearest, p);
+			for (int e = first; e < last && least > farthest; ++e)
+				if (const Real square = squareTo(e, p); square < least) least = square, nearest = e;
+			if (!(least > farthest)) return false;
+			farthest = least;
+			return true;
+		}
+
+	private:
+		/// Square of the distance to an edge [m2].
+		Real squareTo(int edge, const Vec2& p) const
+		{
+			const Vec2 from = a.mesh.reference[a.mesh.edgeNodes[edge][0]], along = a.mesh.reference[a.mesh.edgeNodes[edge][1]] - from;
+			const Real s = std::min(Real(1), std::max(Real(0), (p - from).dot(along) / along.squaredNorm()));
+			return (p - from - s * along).squaredNorm();
+		}
+
+		const BlockAssembly& a;
+		const int            first, last;
+		int                  nearest;
+		Real                 farthest = 0; // square [m2]
+	};
 
 	/// Whether a point lies within a block whose grid points are `where`(n), by the number of edges to its right.
 	template <class Where> bool within(const BlockAssembly& a, int block, const Vec2& p, const Where& where)
@@ -54,10 +78,9 @@ void OverlapWatch::measure(const BlockAssembly& a)
 	zoneHeight.assign(a.nodeCount(), std::numeric_limits<Real>::infinity());
 	innermost.assign(a.blockCount(), { -1, -1, -1 });
 	for (int block = 0; block < a.blockCount(); ++block) {
-		Real farthest = 0;
-		auto consider = [&](const std::array<int, 3>& point) {
-			const Real square = squareToOutline(a, block, meanOf(a.mesh.reference, point));
-			if (square > farthest) farthest = square, innermost[block] = point;
+		Innermost search(a, block);
+		auto      consider = [&](const std::array<int, 3>& point) {
+                        if (search.isFarther(meanOf(a.mesh.reference, point))) innermost[block] = point;
 		};
 		for (int z = a.mesh.firstZone[block]; z < a.mesh.firstZone[block + 1]; ++z) {
 			const auto& node = a.mesh.zoneNodes[z];

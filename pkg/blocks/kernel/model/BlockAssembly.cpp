@@ -270,6 +270,14 @@ void BlockAssembly::rebuildZones(int firstBlock)
 	}
 }
 
+/// Whether the first edge is all that the columns say of a joint.
+static bool isMatched(const JointColumns& c, int i)
+{
+	for (int k : { 0, 1 })
+		if (c.s1[k][i] != k || c.s2[k][i] != 1 - k || c.bondOpening[k][i] != 0 || c.bondSlip[k][i] != 0) return false;
+	return c.e2x[i] == -c.e1x[i] && c.e2y[i] == -c.e1y[i] && c.dx[i] == c.e1x[i] && c.dy[i] == c.e1y[i];
+}
+
 void BlockAssembly::rebuildJoints()
 {
 	const int     count = joints.count(), batches = (count + Joints::batch - 1) / Joints::batch;
@@ -282,6 +290,7 @@ void BlockAssembly::rebuildJoints()
 	joints.node.resize(count);
 	joints.effective.resize(count);
 	joints.kindOfBatch.resize(batches);
+	c.matched.assign(batches, true);
 	joints.anyCap = std::any_of(joints.softening.begin(), joints.softening.end(), [](const SofteningParams& s) { return s.cap.strength > 0; });
 	forces.broke.assign(batches, false);
 	for (int i = 0; i < count; ++i) {
@@ -301,6 +310,7 @@ void BlockAssembly::rebuildJoints()
 			c.bondOpening[k][i] -= joints.inSituOpening[i][k];
 			c.bondSlip[k][i] -= joints.inSituSlip[i][k];
 		}
+		if (!isMatched(c, i)) c.matched[i / Joints::batch] = false;
 	}
 	if (count > 0) noteKinds(0, count);
 	listSides();

@@ -70,13 +70,15 @@ namespace {
 		return true;
 	}
 
-	/// Blocks whose edges do not cross may still lie one within another: then so does the smaller one's box.
-	void requireNoneWithin(const BlockAssembly& a)
+	using Chosen = std::vector<char>; ///< of all edges
+
+	/// Blocks whose edges do not cross may still lie one within another: then so does the smaller one's box. Asked of blocks of which an edge is chosen.
+	void requireNoneWithin(const BlockAssembly& a, const Chosen& chosen)
 	{
 		using Box = CGAL::Box_intersection_d::Box_with_handle_d<Real, 2, const int*, CGAL::Box_intersection_d::ID_EXPLICIT>;
 		std::vector<int> number(a.blockCount());
 		std::iota(number.begin(), number.end(), 0);
-		std::vector<Box> boxes;
+		std::vector<Box> boxes, some;
 		for (const int& block : number) {
 			Real lo[] = { std::numeric_limits<Real>::max(), std::numeric_limits<Real>::max() }, hi[] = { -lo[0], -lo[1] };
 			for (int e = a.mesh.firstEdge[block]; e < a.mesh.firstEdge[block + 1]; ++e)
@@ -85,74 +87,103 @@ namespace {
 					hi[axis] = std::max(hi[axis], a.position(a.mesh.edgeNodes[e][0])[axis]);
 				}
 			boxes.emplace_back(lo, hi, &block);
+			const auto first = chosen.begin() + a.mesh.firstEdge[block], last = chosen.begin() + a.mesh.firstEdge[block + 1];
+			if (std::find(first, last, true) != last) some.push_back(boxes.back());
 		}
 		const auto within = [&](const Box& inner, const Box& outer) {
 			for (int axis : { 0, 1 })
 				if (inner.min_coord(axis) < outer.min_coord(axis) || inner.max_coord(axis) > outer.max_coord(axis)) return false;
 			return strictlyInside(innerPoint(outlineOf(a, *inner.handle())), outlineOf(a, *outer.handle()));
 		};
-		CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& p, const Box& q) {
-			if (within(p, q) || within(q, p))
+		CGAL::box_intersection_d(some.begin(), some.end(), boxes.begin(), boxes.end(), [&](const Box& p, const Box& q) {
+			if (*p.handle() != *q.handle() && (within(p, q) || within(q, p)))
 				refuse(std::min(*p.handle(), *q.handle()), std::max(*p.handle(), *q.handle()), a.centroid(std::max(*p.handle(), *q.handle())));
 		});
 	}
 
+	/// As detectSegments, of pairs of edges of which at least one is chosen.
+	std::vector<Segment> detectSome(const BlockAssembly& a, Real tolerance, const Chosen& chosen)
+	{
+		require(tolerance > 0 && tolerance < 0.1, "detectSegments: tolerance must lie in (0, 0.1)", tolerance);
+		std::vector<Edge> edges(a.mesh.edgeNodes.size());
+		for (int block = 0; block < a.blockCount(); ++block) {
+			const Real width = meanWidth(outlineOf(a, block));
+			for (int i = a.mesh.firstEdge[block]; i < a.mesh.firstEdge[block + 1]; ++i) {
+				const Vec2 p = a.position(a.mesh.edgeNodes[i][0]), q = a.position(a.mesh.edgeNodes[i][1]);
+				edges[i] = { p, q, (q - p).normalized(), (q - p).norm(), std::min((q - p).norm(), width), block, i };
+			}
+		}
+
+		using Box = CGAL::Box_intersection_d::Box_with_handle_d<Real, 2, const Edge*, CGAL::Box_intersection_d::ID_EXPLICIT>;
+		std::vector<Box> boxes, some;
+		boxes.reserve(edges.size());
+		for (const Edge& e : edges) {
+			const Real margin = tolerance * e.length;
+			Real       lo[]   = { std::min(e.a.x(), e.b.x()) - margin, std::min(e.a.y(), e.b.y()) - margin };
+			Real       hi[]   = { std::max(e.a.x(), e.b.x()) + margin, std::max(e.a.y(), e.b.y()) + margin };
+			boxes.emplace_back(lo, hi, &e);
+			if (chosen[e.index]) some.push_back(boxes.back());
+		}
+		struct Found {
+			int     edge1, edge2;
+			Segment segment;
+		};
+		std::vector<Found> found;
+		const auto         meet = [&](const Box& p, const Box& q) {
+                        const Edge *e1 = p.handle(), *e2 = q.handle();
+                        if (e1->block == e2->block) return;
+                        if (e1->block > e2->block) std::swap(e1, e2);
+                        if (penetrate(*e1, *e2, tolerance)) refuse(e1->block, e2->block, e1->a);
+                        Segment g;
+                        if (!overlap(*e1, *e2, tolerance, g)) return;
+                        const auto &n1 = a.mesh.edgeNodes[e1->index], &n2 = a.mesh.edgeNodes[e2->index];
+                        g.node  = { n1[0], n1[1], n2[0], n2[1] };
+                        g.block = { e1->block, e2->block };
+                        g.area *= a.thickness;
+                        found.push_back({ e1->index, e2->index, g });
+		};
+		if (some.size() == boxes.size())
+			CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), meet);
+		else
+			CGAL::box_intersection_d(some.begin(), some.end(), boxes.begin(), boxes.end(), [&](const Box& p, const Box& q) {
+				const int first = p.handle()->index, second = q.handle()->index;
+				if (!chosen[second] || first < second) meet(p, q); // two that are chosen meet twice
+			});
+		requireNoneWithin(a, chosen);
+		std::sort(found.begin(), found.end(), [](const Found& x, const Found& y) { // by block pair, then edge by edge
+			return std::tie(x.segment.block, x.edge1, x.edge2) < std::tie(y.segment.block, y.edge1, y.edge2);
+		});
+		std::vector<Segment> segments;
+		segments.reserve(found.size());
+		for (const Found& f : found)
+			segments.push_back(f.segment);
+		return segments;
+	}
+
+	/// Edges that are not joined over all of their length: others have no room for a further neighbour.
+	Chosen edgesWithRoom(const BlockAssembly& a, Real tolerance)
+	{
+		std::vector<Real> joined(a.mesh.edgeNodes.size(), 0);
+		std::vector<int>  startsAt(a.nodeCount(), -1);
+		for (size_t e = 0; e < a.mesh.edgeNodes.size(); ++e)
+			startsAt[a.mesh.edgeNodes[e][0]] = int(e);
+		for (const Segment& g : a.joints.segments)
+			for (int side : { 0, 2 })
+				joined[startsAt[g.node[side]]] += 2 * g.area / a.thickness;
+		Chosen chosen(joined.size());
+		for (size_t e = 0; e < joined.size(); ++e)
+			chosen[e] = joined[e] < (1 - tolerance) * a.between(a.mesh.edgeNodes[e][0], a.mesh.edgeNodes[e][1]).norm();
+		return chosen;
+	}
+
 } // namespace
 
-std::vector<Segment> detectSegments(const BlockAssembly& a, Real tolerance)
-{
-	require(tolerance > 0 && tolerance < 0.1, "detectSegments: tolerance must lie in (0, 0.1)", tolerance);
-	std::vector<Edge> edges(a.mesh.edgeNodes.size());
-	for (int block = 0; block < a.blockCount(); ++block) {
-		const Real width = meanWidth(outlineOf(a, block));
-		for (int i = a.mesh.firstEdge[block]; i < a.mesh.firstEdge[block + 1]; ++i) {
-			const Vec2 p = a.position(a.mesh.edgeNodes[i][0]), q = a.position(a.mesh.edgeNodes[i][1]);
-			edges[i] = { p, q, (q - p).normalized(), (q - p).norm(), std::min((q - p).norm(), width), block, i };
-		}
-	}
-
-	using Box = CGAL::Box_intersection_d::Box_with_handle_d<Real, 2, const Edge*, CGAL::Box_intersection_d::ID_EXPLICIT>;
-	std::vector<Box> boxes;
-	boxes.reserve(edges.size());
-	for (const Edge& e : edges) {
-		const Real margin = tolerance * e.length;
-		Real       lo[]   = { std::min(e.a.x(), e.b.x()) - margin, std::min(e.a.y(), e.b.y()) - margin };
-		Real       hi[]   = { std::max(e.a.x(), e.b.x()) + margin, std::max(e.a.y(), e.b.y()) + margin };
-		boxes.emplace_back(lo, hi, &e);
-	}
-	struct Found {
-		int     edge1, edge2;
-		Segment segment;
-	};
-	std::vector<Found> found;
-	CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& p, const Box& q) {
-		const Edge *e1 = p.handle(), *e2 = q.handle();
-		if (e1->block == e2->block) return;
-		if (e1->block > e2->block) std::swap(e1, e2);
-		if (penetrate(*e1, *e2, tolerance)) refuse(e1->block, e2->block, e1->a);
-		Segment g;
-		if (!overlap(*e1, *e2, tolerance, g)) return;
-		const auto &n1 = a.mesh.edgeNodes[e1->index], &n2 = a.mesh.edgeNodes[e2->index];
-		g.node  = { n1[0], n1[1], n2[0], n2[1] };
-		g.block = { e1->block, e2->block };
-		g.area *= a.thickness;
-		found.push_back({ e1->index, e2->index, g });
-	});
-	requireNoneWithin(a);
-	std::sort(found.begin(), found.end(), [](const Found& x, const Found& y) { // by block pair, then edge by edge
-		return std::tie(x.segment.block, x.edge1, x.edge2) < std::tie(y.segment.block, y.edge1, y.edge2);
-	});
-	std::vector<Segment> segments;
-	segments.reserve(found.size());
-	for (const Found& f : found)
-		segments.push_back(f.segment);
-	return segments;
-}
+std::vector<Segment> detectSegments(const BlockAssembly& a, Real tolerance) { return detectSome(a, tolerance, Chosen(a.mesh.edgeNodes.size(), true)); }
 
 std::vector<Unjoined> unjoinedBlocks(const BlockAssembly& a, Real tolerance)
 {
 	std::vector<Unjoined> list;
-	for (const Segment& g : detectSegments(a, tolerance)) {
+	for (const Segment& g : detectSome(a, tolerance, edgesWithRoom(a, tolerance))) {
 		const auto joined = std::lower_bound(
 			a.joints.pairs.begin(), a.joints.pairs.end(), g.block, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
 		if (joined != a.joints.pairs.end() && joined->block == g.block) continue;

@@ -28,6 +28,7 @@ struct JointColumns {
 	std::array<std::vector<Real>, 2> s1, s2;                ///< of the two points
 	std::array<std::vector<Real>, 2> bondOpening, bondSlip; ///< distance of the two points' hosts when they were bonded, in the frame [m]
 	std::vector<Real>                area;                  ///< 0 of released joints [m2]
+	std::vector<char>                matched; ///< of each batch: whether the two edges of all joints have the same ends, and no distance when bonded
 };
 
 /// The joints of bonded blocks.

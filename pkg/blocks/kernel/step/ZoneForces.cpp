@@ -123,7 +123,7 @@ namespace {
 	}
 
 	/// Fans: zone k has corners k and k + 1 and the last grid point, so no zone needs to be asked for its grid points.
-	void addFans(const Mesh& mesh, const Real* u, Real* f, int block, int blockEnd, const Moduli& m, Kernel law, Real* energy)
+	WIDE void addFans(const Mesh& mesh, const Real* u, Real* f, int block, int blockEnd, const Moduli& m, Kernel law, Real* energy)
 	{
 		Batch b;
 		while (block < blockEnd) {
