@@ -207,7 +207,9 @@ TEST(Removal, WhatIsLeftStandsOnItsContacts)
 		for (int i : a.contacts.order)
 			for (int b : a.state.contacts[i].block)
 				EXPECT_FALSE(a.isRemoved(b)) << b;
-		if (gone.size() == 2) EXPECT_NEAR(between(0, 1), one, 1e-4 * one);
+		if (gone.size() == 2) {
+			EXPECT_NEAR(between(0, 1), one, 1e-4 * one);
+		}
 		EXPECT_LT(unbalancedRatio(a), 1e-4);
 	}
 	EXPECT_TRUE(a.contacts.order.empty());
