@@ -12,7 +12,7 @@
 namespace blocks {
 
 /// Grows whenever the fields change. Files of another format are refused.
-constexpr int archiveFormat = 6;
+constexpr int archiveFormat = 7;
 
 } // namespace blocks
 

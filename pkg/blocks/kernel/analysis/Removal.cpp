@@ -60,6 +60,7 @@ void removeBlocks(BlockAssembly& a, std::vector<int> blocks)
 	for (int i = 0; i < a.joints.count(); ++i) {
 		if (a.state.released[i] || !leaves(a.joints.segments[i].block)) continue;
 		a.releaseJoint(i);
+		a.forces.broke[i / Joints::batch] = true; // those whom it held together may meet now
 		for (int p : { 2 * i, 2 * i + 1 })
 			a.state.sigma[p] = a.state.tau[p] = 0;
 	}

@@ -87,6 +87,7 @@ template <class T, class Visit, Only<T, FreeContact> = 0> void forEachField(T& x
 template <class T, class Visit, Only<T, ContactMemory> = 0> void forEachField(T& x, Visit&& visit)
 {
 	visit("detectedAt", x.detectedAt), visit("lookedAt", x.lookedAt), visit("mayGo", x.mayGo);
+	visit("loosened", x.loosened);
 }
 
 template <class T, class Visit, Only<T, ReleasedWork> = 0> void forEachField(T& x, Visit&& visit) { visit("work", x.work), visit("turnover", x.turnover); }

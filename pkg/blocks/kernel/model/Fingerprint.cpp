@@ -41,6 +41,11 @@ namespace {
 		{
 			if (!s.empty()) forEachField(s, *this);
 		}
+		void operator()(const char*, const ContactMemory& x) // scenes without general contact keep theirs
+		{
+			(*this)("", x.detectedAt), (*this)("", x.lookedAt), (*this)("", x.mayGo);
+			if (!x.loosened.empty()) (*this)("", x.loosened);
+		}
 		void operator()(const char*, const FurtherAccounts& x)
 		{
 			if (x.any()) forEachField(x, *this);

@@ -145,6 +145,7 @@ void rebuildContacts(BlockAssembly& a)
 	if (!a.contacts.wanted && a.state.contacts.empty()) return;
 	a.contacts.wanted = true;
 	computeShapes(a);
+	a.contacts.corners = cornersOf(a);
 	sortContacts(a);
 	for (FreeContact& c : a.state.contacts) {
 		for (EdgePair& e : c.edges)

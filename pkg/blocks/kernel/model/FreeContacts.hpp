@@ -3,6 +3,7 @@
 #include <atomic>
 #include <blocks/kernel/laws/EdgeContact.hpp>
 #include <blocks/kernel/laws/JointLaw.hpp>
+#include <blocks/kernel/model/JointCorners.hpp>
 #include <blocks/kernel/model/EdgeColumns.hpp>
 #include <cmath>
 #include <limits>
@@ -13,6 +14,9 @@
 /// A contact of two blocks holds all pairs of their edges that can touch before a vertex of either block has moved by
 /// `mayMove` x its mean edge; then they are looked for anew. What a pair of edges remembers (its slip) is carried over by the
 /// names of its edges, so nothing depends on the order in which contacts were made, or on threads.
+///
+/// Blocks that whole joints hold together at a corner are not asked there (JointCorners.hpp): while nothing breaks there is nothing to do. When such a joint breaks
+/// the pairs of edges that it held are looked for.
 ///
 /// Most pairs do not touch. Such a pair rests, without being looked at, until the two blocks have gone so far that it might. Blocks that move along
 /// together go far without nearing each other: so before a pair is looked at, its corners are compared with where they were.
@@ -151,6 +155,7 @@ struct ContactMemory {
 	std::vector<Vec2> detectedAt; ///< displacements at which the edge pairs of the grid point's block were last looked for [m]
 	std::vector<Vec2> lookedAt;   ///< displacements at the last look [m]
 	Real              mayGo = 0;  ///< until a grid point is this far from lookedAt, nobody need look [m]
+	std::vector<char> loosened;   ///< of joints: whether corners know that it is not whole any more
 };
 
 /// By which share of the depth at which their contact is lost two blocks may near each other, in a step.
@@ -181,7 +186,8 @@ struct FreeContacts {
 	ForceRange forcesOf(int contact) const { return range[rangeOf[contact][0]]; }
 	void       setForcesOf(int contact, ForceRange r) { range[rangeOf[contact][0]] = range[rangeOf[contact][1]] = r; }
 
-	// ---- shapes, from the reference positions
+	// ---- shapes and corners, from the reference positions
+	JointCorners      corners;
 	std::vector<Real> sharpness, rounding;                ///< of grid points on outlines, see EdgeShape
 	std::vector<int>  edgeFrom;                           ///< grid point -> the boundary edge that starts there, or -1
 	std::vector<Real> depthLimit, meanEdge;               ///< of blocks [m]
@@ -196,7 +202,8 @@ struct FreeContacts {
 	// ---- how far things have moved
 	std::vector<Sleep> sleep; ///< of the contacts in `order`
 	Odometer           odometer;
-	std::vector<int>   waiting; ///< broken joints that will be released, in their order
+	std::vector<int>   waiting;   ///< broken joints that will be released, in their order
+	std::vector<int>   loosening; ///< joints that are not whole any more, which corners do not know yet
 
 	static constexpr Real mayMove = 0.016; ///< of a mean edge, until edge pairs are looked for anew
 };

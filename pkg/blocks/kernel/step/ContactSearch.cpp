@@ -5,6 +5,7 @@
 #include <blocks/kernel/step/Contacts.hpp>
 #include <blocks/kernel/step/Largest.hpp>
 #include <limits>
+#include <map>
 
 namespace blocks {
 namespace {
@@ -49,15 +50,15 @@ namespace {
 	/// A segment between bonded blocks as a pair of edges.
 	std::array<int, 2> edgesOf(const BlockAssembly& a, const Segment& g) { return { a.contacts.edgeFrom[g.node[0]], a.contacts.edgeFrom[g.node[2]] }; }
 
-	/// Edge pairs [sorted] that unreleased segments of two blocks occupy.
-	std::vector<std::array<int, 2>> bondedEdges(const BlockAssembly& a, const std::array<int, 2>& blocks)
+	/// Edge pairs [sorted] that segments of two blocks occupy: those that are not released, or all.
+	std::vector<std::array<int, 2>> edgesOfJoints(const BlockAssembly& a, const std::array<int, 2>& blocks, bool releasedToo)
 	{
 		std::vector<std::array<int, 2>> list;
 		const auto                      pair = std::lower_bound(
                         a.joints.pairs.begin(), a.joints.pairs.end(), blocks, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
 		if (pair == a.joints.pairs.end() || pair->block != blocks) return list;
 		for (int s = pair->first; s < pair->last; ++s)
-			if (!a.state.released[s]) list.push_back(edgesOf(a, a.joints.segments[s]));
+			if (releasedToo || !a.state.released[s]) list.push_back(edgesOf(a, a.joints.segments[s]));
 		std::sort(list.begin(), list.end());
 		return list;
 	}
@@ -66,7 +67,7 @@ namespace {
 	void detect(BlockAssembly& a, FreeContact& contact)
 	{
 		const FreeContacts& f      = a.contacts;
-		const auto          bonded = bondedEdges(a, contact.block);
+		const auto          bonded = edgesOfJoints(a, contact.block, false), joined = edgesOfJoints(a, contact.block, true);
 		// each block's vertices may have moved by mayMove since they were last looked at, and will again
 		const Real margin = 2 * FreeContacts::mayMove * (f.meanEdge[contact.block[0]] + f.meanEdge[contact.block[1]]);
 		const Real reach  = margin + 2 * std::min(f.depthLimit[contact.block[0]], f.depthLimit[contact.block[1]]); // a vertex may be this deep
@@ -86,6 +87,7 @@ namespace {
 				const bool known = old != contact.edges.end() && old->edge == key;
 				if (!box.meets(boxOf(b0, b1), reach) || !mayTouch(a0, a1, b0, b1, margin + (known ? old->uplift : 0))) continue;
 				if (std::binary_search(bonded.begin(), bonded.end(), key)) continue;
+				if (!std::binary_search(joined.begin(), joined.end(), key) && heldTogether(a, contact.block, key)) continue;
 				if (known) {
 					found.push_back(*old);
 					continue;
@@ -178,6 +180,26 @@ namespace {
 		return normalEnergyBefore(a, c, e, dt);
 	}
 
+	/// What a joint held at its strength [J].
+	Real energyAtStrength(const BlockAssembly& a, int joint)
+	{
+		const JointParams& p = a.joints.of(joint);
+		return a.joints.segments[joint].area * (p.tension * p.tension / p.kn + p.cohesion * p.cohesion / p.ks);
+	}
+
+	/// Looks for the edge pairs of a contact, and lowers those that it did not have. What these hold [J].
+	Real detectMore(BlockAssembly& a, FreeContact& c, Real most, Real dt)
+	{
+		std::vector<std::array<int, 2>> known;
+		for (const EdgePair& e : c.edges)
+			known.push_back(e.edge);
+		detect(a, c);
+		Real held = 0;
+		for (EdgePair& e : c.edges)
+			if (!std::binary_search(known.begin(), known.end(), e.edge)) held += lower(a, c, e, most, dt);
+		return held;
+	}
+
 	/// Turns a broken joint into a free edge pair, which takes over its slip. With the joint the other edges of the two blocks come to act, too. They may
 	/// overlap by then, and a joint may have dilated more at one end than there is room for at the other: such pairs are lowered, so that no energy comes
 	/// from nowhere. What the joint held and its successors do not hold is the return value [J].
@@ -211,9 +233,8 @@ namespace {
 			if (near) at->slip[k] = a.state.tau[p] / c.joint.ks, at->sigma[k] = a.state.sigma[p], at->tau[k] = a.state.tau[p];
 			a.state.sigma[p] = a.state.tau[p] = 0;
 		}
-		const Real atStrength = g.area * (own.tension * own.tension / own.kn + own.cohesion * own.cohesion / own.ks);
-		const Real more       = mayGain * std::max(normal, atStrength);
-		Real       lost       = normal + (near ? 0 : shear);
+		const Real more = mayGain * std::max(normal, energyAtStrength(a, joint));
+		Real       lost = normal + (near ? 0 : shear);
 		for (EdgePair& e : c.edges)
 			if (e.edge == key)
 				lost -= lower(a, c, e, normal + more, dt);
@@ -317,7 +338,7 @@ namespace {
 				continue; // they move along together: most do, and need no closer look
 			const Real speed = fastest(a, b, with);
 			if (speed * dt <= limit || !sweptBox(a, b, with, dt).meets(boxOf(a, other), 0)) continue;
-			if (pairOf(a, ordered(b, other)) >= 0 && !bondedEdges(a, ordered(b, other)).empty()) continue;
+			if (pairOf(a, ordered(b, other)) >= 0 && !edgesOfJoints(a, ordered(b, other), false).empty()) continue;
 			throw std::runtime_error(
 				"block " + std::to_string(b) + " nears block " + std::to_string(other) + " at " + shown(speed, 6) + " m/s, "
 				+ shown(speed * dt, 3) + " m a step, and might pass through it: contacts need steps of at most " + shown(limit, 3)
@@ -365,6 +386,13 @@ namespace {
 	/// How far a block's grid points may move until its neighbours are looked for anew [m].
 	Real limitOf(const FreeContacts& f, int block) { return FreeContacts::mayMove * f.meanEdge[block]; }
 
+	/// Takes note of a joint that is to be released, or lets go of the corners at its ends.
+	void askWhether(BlockAssembly& a, int joint)
+	{
+		if (!a.state.released[joint] && releaseOf(a, joint) != Release::never) a.contacts.waiting.push_back(joint);
+		if (!a.state.search.loosened[joint] && !isWhole(a, joint)) a.contacts.loosening.push_back(joint);
+	}
+
 	/// The first step of a scene, or the first after its state was put back. Whether neighbours are known.
 	bool start(BlockAssembly& a)
 	{
@@ -375,9 +403,14 @@ namespace {
 		f.odometer.seenAt = a.state.displacement;
 		f.odometer.unseen = 0, f.odometer.sinceLook = std::numeric_limits<Real>::infinity();
 		if (!known) a.state.search.detectedAt = a.state.search.lookedAt = a.state.displacement;
-		f.waiting.clear();
+		f.waiting.clear(), f.loosening.clear();
+		if (!known) {
+			a.state.search.loosened.resize(a.joints.count());
+			for (int i = 0; i < a.joints.count(); ++i)
+				a.state.search.loosened[i] = !isWhole(a, i);
+		}
 		for (int i = 0; i < a.joints.count(); ++i)
-			if (!a.state.released[i] && releaseOf(a, i) != Release::never) f.waiting.push_back(i);
+			askWhether(a, i);
 		f.started = true;
 		return known;
 	}
@@ -477,11 +510,64 @@ namespace {
 			a.forces.broke[batch] = false;
 			const int last        = std::min(a.joints.count(), int(batch + 1) * Joints::batch);
 			for (int i = int(batch) * Joints::batch; i < last; ++i)
-				if (!a.state.released[i] && releaseOf(a, i) != Release::never) f.waiting.push_back(i);
+				askWhether(a, i);
 		}
 		if (f.waiting.size() == before) return;
 		std::sort(f.waiting.begin(), f.waiting.end());
 		f.waiting.erase(std::unique(f.waiting.begin(), f.waiting.end()), f.waiting.end());
+	}
+
+	/// Joints have ceased to be whole: the blocks that they held together at their ends may meet there. Where they overlap already, by what joints yield,
+	/// they are lowered as in release().
+	void loosen(BlockAssembly& a, Real dt, bool account)
+	{
+		FreeContacts&                      f = a.contacts;
+		std::map<std::array<int, 2>, Real> mayHold; // blocks -> energy that a pair of their edges may begin with [J]
+		for (int joint : f.loosening)
+			a.state.search.loosened[joint] = true;
+		for (int joint : f.loosening)
+			for (int corner : f.corners.ofJoint[joint]) {
+				std::vector<int> blocks;
+				for (int i = f.corners.first[corner]; i < f.corners.first[corner + 1]; ++i)
+					for (int block : a.joints.segments[f.corners.joints[i]].block)
+						if (!a.isRemoved(block)) blocks.push_back(block);
+				std::sort(blocks.begin(), blocks.end());
+				blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+				const Real more = mayGain * energyAtStrength(a, joint);
+				for (size_t i = 0; i < blocks.size(); ++i)
+					for (size_t j = i + 1; j < blocks.size(); ++j) {
+						const auto [at, isNew] = mayHold.insert({ { blocks[i], blocks[j] }, more });
+						if (!isNew) at->second = std::min(at->second, more);
+					}
+			}
+		f.loosening.clear();
+		followAll(a);
+		std::vector<std::array<int, 2>>    keys;
+		std::vector<std::vector<EdgePair>> edges;
+		Real                               lost = 0;
+		for (const auto& [key, more] : mayHold) {
+			if (const int known = contactOf(a, key[0], key[1]); known >= 0) {
+				lost -= detectMore(a, a.state.contacts[known], more, dt);
+			} else if (pairOf(a, key) < 0) { // pairs with joints get a contact when one of these is released
+				FreeContact candidate;
+				candidate.block = key;
+				detect(a, candidate);
+				if (candidate.edges.empty()) continue;
+				keys.push_back(key);
+				edges.push_back(std::move(candidate.edges));
+			}
+		}
+		makeContacts(a, keys);
+		for (size_t i = 0; i < keys.size(); ++i) {
+			FreeContact& made = a.state.contacts[contactOf(a, keys[i][0], keys[i][1])];
+			made.edges        = std::move(edges[i]);
+			for (EdgePair& e : made.edges)
+				lost -= lower(a, made, e, mayHold[keys[i]], dt);
+			forgetActive(made);
+		}
+		if (account) a.state.accounts.friction += lost;
+		placeForces(a);
+		if (!keys.empty()) ++f.version;
 	}
 
 	void releaseBroken(BlockAssembly& a, Real dt, bool account)
@@ -556,6 +642,7 @@ void prepareContacts(BlockAssembly& a, Real dt, bool account)
 		if (!(f.odometer.sinceLook <= perAxis)) look(a, false);
 	}
 	collectBroken(a);
+	if (!f.loosening.empty()) loosen(a, dt, account);
 	if (!f.waiting.empty()) releaseBroken(a, dt, account);
 	if (f.strangers) f.odometer.fastest = largest(a.state.velocity.data()->data(), 2 * a.nodeCount());
 	if (!first && dt > 0 && !(f.odometer.fastest * dt <= f.mostAStep * f.leastDepth * std::sqrt(Real(0.5)))) refuseTunnelling(a, dt);
