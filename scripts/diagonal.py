@@ -16,7 +16,7 @@ would be cohesion / (1 - friction).
 Expected of the tension in the centre while all is elastic: 0.5 P / A (RILEM, from Frocht 1931, for a body without joints). Joints that are softer in shear than
 across raise it.
 """
-from math import atan, atan2, pi
+from math import atan, atan2, cos, pi, sin
 
 import numpy as np
 
@@ -56,7 +56,7 @@ turn = pi / 2 - atan2(high, wide) # from the wall as it is laid, lower left corn
 def laid(points):
 	"""Where points of the turned wall lie in the wall as it is laid [m]."""
 	x, y = np.asarray(points, float).T
-	return np.cos(turn) * x + np.sin(turn) * y, np.cos(turn) * y - np.sin(turn) * x
+	return cos(turn) * x + sin(turn) * y, cos(turn) * y - sin(turn) * x
 
 
 def build():

@@ -15,6 +15,7 @@ import numpy as np
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import loading, pictures, picturesfields, scenario
+from yadeblocks._same import unit
 from yadeblocks.engines import loopList
 from yadeblocks.export import State, writeStates
 from yadeblocks.recording import Recorder
@@ -45,7 +46,7 @@ def build():
 	free = int(np.ceil((pi - 2 * half) * radius / p.zone))
 	turn = np.concatenate([np.linspace(-half, half, loaded, endpoint=False), np.linspace(half, pi - half, free, endpoint=False)])
 	at = pi / 2 + np.concatenate([turn, turn + pi])
-	model.addRegion(radius * np.column_stack([np.cos(at), np.sin(at)]), 'rock', zoneSize=p.zone)
+	model.addRegion(radius * unit(at), 'rock', zoneSize=p.zone)
 	model.bond([])
 	ends = model.reference[model.edgeNodes]
 	middle = ends.mean(axis=1)

@@ -6,12 +6,14 @@
 	placed = rock.addTo(model, 'rock', zoneSize=0.4)
 
 Joints are named as their set or crack (see layout.Placed.joints). Needs shapely (Debian's python3-shapely)."""
+import math
 from collections import namedtuple
 
 import numpy as np
 
 from ._calls import door
 from ._kinds import shown, wrong
+from ._same import onGrid, unit
 from .layout import Layout, joinSmall, _shapely
 
 #: Parallel joints. dip: angle of the traces with the x axis, counter-clockwise [degrees]; spacing: normal distance [m]; persistence: share of a trace that is
@@ -81,11 +83,12 @@ def _tracesOf(joints, bounds):
 							'lie in [0, 1)'), ('seed', joints.seed, joints.seed >= 0, 'not be negative')):
 		if not fulfilled: raise ValueError(f'JointSet.{name} must {rule}, got {value!r} in {joints.name!r}')
 	random = np.random.default_rng(int(joints.seed))
-	vary = lambda mean: mean if not joints.scatter else mean * random.lognormal(-np.log1p(joints.scatter**2) / 2, np.log1p(joints.scatter**2)**0.5)
+	width = math.log1p(joints.scatter**2)**0.5
+	vary = lambda mean: mean if not joints.scatter else mean * random.lognormal(-width**2 / 2, width)
 	x0, y0, x1, y1 = bounds
 	corners, through = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]), np.asarray(joints.through, float)
-	dip = np.radians(joints.dip)
-	along, across = np.array([np.cos(dip), np.sin(dip)]), np.array([-np.sin(dip), np.cos(dip)])
+	along = unit(math.radians(joints.dip))
+	across = np.array([-along[1], along[0]])
 	far, reach = (corners - through) @ across, np.hypot(x1 - x0, y1 - y0)
 	middle = (corners.mean(axis=0) - through) @ along
 	joint = joints.length or 3 * joints.spacing
@@ -102,7 +105,7 @@ def _tracesOf(joints, bounds):
 	traces = []
 	for place in places:
 		turn = joints.scatter * random.standard_normal() if joints.scatter else 0
-		direction = np.cos(turn) * along + np.sin(turn) * across
+		direction = unit(turn) @ (along, across)
 		foot, s = through + place * across + middle * along, -reach
 		if joints.persistence == 1:
 			traces.append(foot + np.outer((-reach, reach), direction))
@@ -122,7 +125,11 @@ def _lines(shape):
 
 def _polygons(shapely, region, lines):
 	"""The pieces of a region between lines, in order of their centroids from below, then from the left."""
+	x0, y0, x1, y1 = region.bounds
 	network = shapely.ops.unary_union([*lines, region.boundary])
+	# where a line meets a corner, or two others where they cross, rounding parts what is one point
+	parts = [onGrid(part.coords, max(x1 - x0, y1 - y0)) for part in _lines(network)]
+	network = shapely.ops.unary_union([shapely.geometry.LineString(points) for points in parts if np.ptp(points, axis=0).any()])
 	pieces = [piece for piece in shapely.ops.polygonize(network) if region.contains(piece.representative_point())]
 	return sorted(pieces, key=lambda piece: (round(piece.centroid.y, 9), piece.centroid.x))
 

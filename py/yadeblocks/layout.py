@@ -14,6 +14,7 @@ import numpy as np
 
 from ._calls import door
 from ._kinds import wrong
+from ._same import unit
 
 
 def area(ring):
@@ -67,7 +68,7 @@ class Layout:
 	def turned(self, angle, about=(0.0, 0.0)):
 		"""The same blocks, turned counter-clockwise by an angle [rad] about a point [m] -> Layout. Joints have the names that they had. Notes are left
 		behind, since they may tell places."""
-		about, cos, sin = np.asarray(about, float), np.cos(angle), np.sin(angle)
+		about, (cos, sin) = np.asarray(about, float), unit(angle)
 		turn = np.array([[cos, sin], [-sin, cos]]) # of rows
 		moved = lambda ring: (np.asarray(ring, float) - about) @ turn + about
 		nameOf = lambda normals, ends, samePiece: self.nameOf(normals @ turn.T, (ends - about) @ turn.T + about, samePiece)

@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from ._calls import door
+from ._same import unit
 from .layout import Layout
 
 
@@ -32,8 +33,7 @@ def arch(radius, thickness, count, angle=math.pi, chords=1, centre=(0.0, 0.0)):
 		)
 	count, chords = int(count), int(chords)
 	at = np.pi / 2 + angle * (np.arange(count * chords + 1) / (count * chords) - 0.5)
-	unit = np.column_stack([np.cos(at), np.sin(at)])
-	inner, outer = (np.asarray(centre) + (radius + side * thickness / 2) * unit for side in (-1, 1))
+	inner, outer = (np.asarray(centre) + (radius + side * thickness / 2) * unit(at) for side in (-1, 1))
 	outlines = [np.vstack([outer[i:i + chords + 1], inner[i:i + chords + 1][::-1]]) for i in range(0, count * chords, chords)]
 	return Layout(
 		outlines, ['voussoir'] * count, np.arange(count), lambda normals, ends, samePiece: np.full(len(normals), 'radial'),

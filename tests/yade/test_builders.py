@@ -159,6 +159,17 @@ def test_smallBlocksJoin():
 	assert joined.counts == {'block': 3} and joined.notes['merged'] == 1 and joined.areas.min() == pytest.approx(0.95)
 
 
+@pytest.mark.parametrize('off', [0, 1.8e-15, -1.8e-15, 1e-13, -1e-13])
+def test_linesThatMeetACorner(off):
+	"""What rounding parts is one point: a line through a corner of the outline, and three through one point, leave no slivers."""
+	cracks = {'rise': [(-1, -1 + off), (41, 41 + off)], 'fall': [(-1, 41), (41, -1 + off)], 'level': [(-1, 20 + off), (41, 20)]}
+	for block in jointsets.cut(rectangle(0, 0, 40, 40), [JointSet('bed', dip=15, spacing=4, through=(off, 0))], cracks).outlines:
+		assert np.hypot(*(np.roll(block, -1, axis=0) - block).T).min() > 1e-3, block
+	materials()
+	with pytest.raises(ValueError, match=r'vertices must be farther apart than 1.2e-07 m, got 1.8e-15 m .*leave one of the two out'):
+		BlockModel().addRegion([(0, 0), (40, 0), (40, 20), (0, 20), (0, 1.8e-15)], 'unit', 4)
+
+
 def test_impossibleCuts():
 	box = rectangle(0, 0, 1, 1)
 	for outline, sets, cracks, words in (([(0, 0), (1, 1), (1, 0),

@@ -51,6 +51,8 @@ namespace {
 
 	constexpr Real trianglesOfCell = 6; ///< cells have six edges on average
 
+	constexpr Real shortestEdge = 1e-9; ///< of a region, by its outline; nobody means so short ones, and zones behind them would be as thin
+
 	/// A region on its way to become blocks: checked when it is made, and all or none of its blocks are added.
 	class Addition {
 	public:
@@ -63,6 +65,7 @@ namespace {
 			trial.thickness = model.assembly.thickness;
 			trial.addMaterial(materialOf(model, material));
 			blocks::requireSimple(this->region, "region");
+			blocks::requireLongEdges(this->region, shortestEdge, "region");
 			model.requireFree(this->region);
 		}
 		const blocks::Polygon region;

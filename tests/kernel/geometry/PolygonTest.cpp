@@ -107,3 +107,15 @@ TEST(Polygon, DividedEdges)
 	EXPECT_EQ(divided(frame, 10).outer, frame.outer);
 	EXPECT_EQ(partsOf(3 * 0.1, 0.1), 3); // 4e-16 more than three times as long
 }
+
+TEST(LongEdges, AVertexThatRoundingPartedIsRefused)
+{
+	// Of the outline, 12 m long, 1e-9: just longer ones stay. In a hole as well.
+	const auto corner = [](Real gap) { return Ring { { 0, 0 }, { 3, 0 }, { 3, 3 }, { 0, 3 }, { 0, gap } }; };
+	const auto hole   = [](Real gap) { return Ring { { 1, 1 + gap }, { 1, 2 }, { 2, 2 }, { 2, 1 }, { 1, 1 } }; };
+	const Ring square { { 0, 0 }, { 3, 0 }, { 3, 3 }, { 0, 3 } };
+	for (const Polygon& region : { Polygon { corner(1.8e-15), {} }, Polygon { corner(1.1e-8), {} }, Polygon { square, { hole(1.3e-8) } } })
+		EXPECT_THROW(requireLongEdges(region, 1e-9, "region"), std::invalid_argument);
+	for (const Polygon& region : { Polygon { square, {} }, Polygon { corner(1.3e-8), {} }, Polygon { square, { hole(1.7e-8) } } })
+		EXPECT_NO_THROW(requireLongEdges(region, 1e-9, "region"));
+}

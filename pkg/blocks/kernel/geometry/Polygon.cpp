@@ -210,6 +210,17 @@ void requireSimple(const Polygon& region, const std::string& name)
 	}
 }
 
+void requireLongEdges(const Polygon& region, Real share, const std::string& name)
+{
+	const Walls walls(region);
+	const Real  shortest = share * perimeter(region);
+	for (int k = 0; k < int(walls.corner.size()); ++k)
+		if (const Real length = walls.along(k).norm(); length < shortest)
+			throw std::invalid_argument(
+				name + "'s vertices must be farther apart than " + shown(shortest, 3) + " m, got " + shown(length, 3) + " m at "
+				+ wallName(walls, k) + ": leave one of the two out");
+}
+
 void requireClear(const Polygon& region, Real clearance, const std::string& name)
 {
 	const Walls walls(region);

@@ -58,6 +58,9 @@ void requireSimple(const Polygon&, const std::string& name);
 /// are joined by one more edge.
 void requireClear(const Polygon&, Real clearance, const std::string& name);
 
+/// Throws std::invalid_argument if an edge is shorter than this share of the region's outline: two vertices were meant to be one, and rounding parted them.
+void requireLongEdges(const Polygon&, Real share, const std::string& name);
+
 /// The polygon with its holes turned clockwise, whichever way they ran.
 Polygon holesClockwise(Polygon);
 
