@@ -93,8 +93,8 @@ def fallingArch(**motion):
 
 
 def test_collapseWithScaledMasses(compare):
-	"""Masses that suit the stiffest springs make a mechanism of whole blocks heavy. How far it goes in a step does not depend on O.dt then. Which of its two
-	diagonals parts a voussoir into zones is decided by rounding, and moves the result by a quarter either way."""
+	"""Masses that suit the stiffest springs make a mechanism of whole blocks heavy. How far it goes in a step does not depend on O.dt then.
+	Which of its two diagonals parts a voussoir into zones is decided by rounding, and moves the result by a quarter either way."""
 	model = fallingArch(damping='local', alpha=0.3, rescueFile='')
 	O.run(30000, True)
 	compare('limit: arch that must fall, 30,000 steps with scaled masses, sunk [mm]', 0.54, -1e3 * model.displacement[:, 1].min(), 0.35, 'as measured')
