@@ -5,7 +5,7 @@
 #include <blocks/kernel/step/Contacts.hpp>
 #include <blocks/kernel/step/Largest.hpp>
 #include <limits>
-#include <map>
+#include <set>
 
 namespace blocks {
 namespace {
@@ -180,24 +180,15 @@ namespace {
 		return normalEnergyBefore(a, c, e, dt);
 	}
 
-	/// What a joint held at its strength [J].
-	Real energyAtStrength(const BlockAssembly& a, int joint)
-	{
-		const JointParams& p = a.joints.of(joint);
-		return a.joints.segments[joint].area * (p.tension * p.tension / p.kn + p.cohesion * p.cohesion / p.ks);
-	}
-
-	/// Looks for the edge pairs of a contact, and lowers those that it did not have. What these hold [J].
-	Real detectMore(BlockAssembly& a, FreeContact& c, Real most, Real dt)
+	/// Looks for the edge pairs of a contact. Those that it did not have are lowered until they only touch.
+	void detectMore(BlockAssembly& a, FreeContact& c, Real dt)
 	{
 		std::vector<std::array<int, 2>> known;
 		for (const EdgePair& e : c.edges)
 			known.push_back(e.edge);
 		detect(a, c);
-		Real held = 0;
 		for (EdgePair& e : c.edges)
-			if (!std::binary_search(known.begin(), known.end(), e.edge)) held += lower(a, c, e, most, dt);
-		return held;
+			if (!std::binary_search(known.begin(), known.end(), e.edge)) lower(a, c, e, 0, dt);
 	}
 
 	/// Turns a broken joint into a free edge pair, which takes over its slip. With the joint the other edges of the two blocks come to act, too. They may
@@ -233,8 +224,9 @@ namespace {
 			if (near) at->slip[k] = a.state.tau[p] / c.joint.ks, at->sigma[k] = a.state.sigma[p], at->tau[k] = a.state.tau[p];
 			a.state.sigma[p] = a.state.tau[p] = 0;
 		}
-		const Real more = mayGain * std::max(normal, energyAtStrength(a, joint));
-		Real       lost = normal + (near ? 0 : shear);
+		const Real atStrength = g.area * (own.tension * own.tension / own.kn + own.cohesion * own.cohesion / own.ks);
+		const Real more       = mayGain * std::max(normal, atStrength);
+		Real       lost       = normal + (near ? 0 : shear);
 		for (EdgePair& e : c.edges)
 			if (e.edge == key)
 				lost -= lower(a, c, e, normal + more, dt);
@@ -404,10 +396,11 @@ namespace {
 		f.odometer.unseen = 0, f.odometer.sinceLook = std::numeric_limits<Real>::infinity();
 		if (!known) a.state.search.detectedAt = a.state.search.lookedAt = a.state.displacement;
 		f.waiting.clear(), f.loosening.clear();
-		if (!known) {
-			a.state.search.loosened.resize(a.joints.count());
+		auto& loosened = a.state.search.loosened;
+		if (!known || int(loosened.size()) != a.joints.count()) {
+			loosened.resize(a.joints.count());
 			for (int i = 0; i < a.joints.count(); ++i)
-				a.state.search.loosened[i] = !isWhole(a, i);
+				loosened[i] = !isWhole(a, i);
 		}
 		for (int i = 0; i < a.joints.count(); ++i)
 			askWhether(a, i);
@@ -517,38 +510,32 @@ namespace {
 		f.waiting.erase(std::unique(f.waiting.begin(), f.waiting.end()), f.waiting.end());
 	}
 
-	/// Joints have ceased to be whole: the blocks that they held together at their ends may meet there. Where they overlap already, by what joints yield,
-	/// they are lowered as in release().
-	void loosen(BlockAssembly& a, Real dt, bool account)
+	/// Joints have ceased to be whole: the blocks that they held together at their ends may meet there. Where they overlap already, by what joints yielded,
+	/// they are lowered until they only touch: what was there before is no contact.
+	void loosen(BlockAssembly& a, Real dt)
 	{
-		FreeContacts&                      f = a.contacts;
-		std::map<std::array<int, 2>, Real> mayHold; // blocks -> energy that a pair of their edges may begin with [J]
-		for (int joint : f.loosening)
+		FreeContacts&                f = a.contacts;
+		std::set<std::array<int, 2>> mayMeet;
+		for (int joint : f.loosening) {
 			a.state.search.loosened[joint] = true;
-		for (int joint : f.loosening)
 			for (int corner : f.corners.ofJoint[joint]) {
-				std::vector<int> blocks;
+				std::set<int> blocks;
 				for (int i = f.corners.first[corner]; i < f.corners.first[corner + 1]; ++i)
 					for (int block : a.joints.segments[f.corners.joints[i]].block)
-						if (!a.isRemoved(block)) blocks.push_back(block);
-				std::sort(blocks.begin(), blocks.end());
-				blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-				const Real more = mayGain * energyAtStrength(a, joint);
-				for (size_t i = 0; i < blocks.size(); ++i)
-					for (size_t j = i + 1; j < blocks.size(); ++j) {
-						const auto [at, isNew] = mayHold.insert({ { blocks[i], blocks[j] }, more });
-						if (!isNew) at->second = std::min(at->second, more);
-					}
+						if (!a.isRemoved(block)) blocks.insert(block);
+				for (auto first = blocks.begin(); first != blocks.end(); ++first)
+					for (auto second = std::next(first); second != blocks.end(); ++second)
+						mayMeet.insert({ *first, *second });
 			}
+		}
 		f.loosening.clear();
 		followAll(a);
 		std::vector<std::array<int, 2>>    keys;
 		std::vector<std::vector<EdgePair>> edges;
-		Real                               lost = 0;
-		for (const auto& [key, more] : mayHold) {
-			if (const int known = contactOf(a, key[0], key[1]); known >= 0) {
-				lost -= detectMore(a, a.state.contacts[known], more, dt);
-			} else if (pairOf(a, key) < 0) { // pairs with joints get a contact when one of these is released
+		for (const auto& key : mayMeet) {
+			if (const int known = contactOf(a, key[0], key[1]); known >= 0)
+				detectMore(a, a.state.contacts[known], dt);
+			else if (pairOf(a, key) < 0) { // pairs with joints get a contact when one of these is released
 				FreeContact candidate;
 				candidate.block = key;
 				detect(a, candidate);
@@ -562,10 +549,9 @@ namespace {
 			FreeContact& made = a.state.contacts[contactOf(a, keys[i][0], keys[i][1])];
 			made.edges        = std::move(edges[i]);
 			for (EdgePair& e : made.edges)
-				lost -= lower(a, made, e, mayHold[keys[i]], dt);
+				lower(a, made, e, 0, dt);
 			forgetActive(made);
 		}
-		if (account) a.state.accounts.friction += lost;
 		placeForces(a);
 		if (!keys.empty()) ++f.version;
 	}
@@ -642,7 +628,7 @@ void prepareContacts(BlockAssembly& a, Real dt, bool account)
 		if (!(f.odometer.sinceLook <= perAxis)) look(a, false);
 	}
 	collectBroken(a);
-	if (!f.loosening.empty()) loosen(a, dt, account);
+	if (!f.loosening.empty()) loosen(a, dt);
 	if (!f.waiting.empty()) releaseBroken(a, dt, account);
 	if (f.strangers) f.odometer.fastest = largest(a.state.velocity.data()->data(), 2 * a.nodeCount());
 	if (!first && dt > 0 && !(f.odometer.fastest * dt <= f.mostAStep * f.leastDepth * std::sqrt(Real(0.5)))) refuseTunnelling(a, dt);
