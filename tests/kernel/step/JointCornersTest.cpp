@@ -95,8 +95,8 @@ TEST(JointCorners, JointsEndWhereBlocksMeet)
 		ASSERT_LT(corners.first[c], corners.first[c + 1]);
 		for (int i = corners.first[c]; i < corners.first[c + 1]; ++i) {
 			const int   joint = corners.joints[i], end = corners.ofJoint[joint][0] == c ? 0 : 1;
-			const auto& g     = a.joints.segments[joint];
-			const Vec2  at    = a.position(g.node[0]) + g.s1[end] * a.between(g.node[0], g.node[1]);
+			const auto& g  = a.joints.segments[joint];
+			const Vec2  at = a.position(g.node[0]) + g.s1[end] * a.between(g.node[0], g.node[1]);
 			ASSERT_EQ(corners.ofJoint[joint][end], c);
 			if (i == corners.first[c]) place[c] = at;
 			EXPECT_LT((at - place[c]).norm(), 4 * eps);

@@ -3,8 +3,8 @@
 #include <atomic>
 #include <blocks/kernel/laws/EdgeContact.hpp>
 #include <blocks/kernel/laws/JointLaw.hpp>
-#include <blocks/kernel/model/JointCorners.hpp>
 #include <blocks/kernel/model/EdgeColumns.hpp>
+#include <blocks/kernel/model/JointCorners.hpp>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -15,8 +15,8 @@
 /// `mayMove` x its mean edge; then they are looked for anew. What a pair of edges remembers (its slip) is carried over by the
 /// names of its edges, so nothing depends on the order in which contacts were made, or on threads.
 ///
-/// Blocks that whole joints hold together at a corner are not asked there (JointCorners.hpp): while nothing breaks there is nothing to do. When such a joint breaks
-/// the pairs of edges that it held are looked for.
+/// Blocks that whole joints hold together at a corner are not asked there (JointCorners.hpp): while nothing breaks there is nothing to do. When such a joint
+/// breaks the pairs of edges that it held are looked for.
 ///
 /// Most pairs do not touch. Such a pair rests, without being looked at, until the two blocks have gone so far that it might. Blocks that move along
 /// together go far without nearing each other: so before a pair is looked at, its corners are compared with where they were.

@@ -38,9 +38,10 @@ namespace {
 			grows = false;
 			for (int i = c.first[corner]; i < c.first[corner + 1]; ++i) {
 				if (a.state.search.loosened[c.joints[i]]) continue;
-				const auto& two    = a.joints.segments[c.joints[i]].block;
-				const auto  known  = [&](int block) { return std::find(reached.begin(), reached.begin() + count, block) != reached.begin() + count; };
-				const bool  first  = known(two[0]);
+				const auto& two = a.joints.segments[c.joints[i]].block;
+				const auto  known
+					= [&](int block) { return std::find(reached.begin(), reached.begin() + count, block) != reached.begin() + count; };
+				const bool first = known(two[0]);
 				if (first == known(two[1]) || count == most) continue;
 				reached[count++] = two[first];
 				if (reached[count - 1] == block2) return true;
