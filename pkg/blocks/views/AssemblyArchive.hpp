@@ -66,6 +66,7 @@ namespace serialization {
 		if (!Archive::is_loading::value) return;
 		if (sum != blocks::fingerprint(x)) throw std::runtime_error("the saved blocks are damaged: their fingerprint does not fit");
 		x.rebuild();
+		x.forces.before.take(x.state); // so that the next step's dissipation is known, too
 	}
 
 } // namespace serialization

@@ -142,7 +142,7 @@ void followEdition(BlockAssembly& a)
 void rebuildContacts(BlockAssembly& a)
 {
 	a.contacts.started = false;
-	if (!a.contacts.wanted && a.state.contacts.empty()) return;
+	if (!a.contacts.wanted && a.state.contacts.empty() && a.state.search.lookedAt.empty()) return; // there may be none yet
 	a.contacts.wanted = true;
 	computeShapes(a);
 	a.contacts.corners = cornersOf(a);
