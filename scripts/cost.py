@@ -135,12 +135,13 @@ def draw(rows, path):
 	for build in dict.fromkeys(row["build"] for row in rows):
 		for feature in features:
 			some = [row for row in rows if row["build"] == build and row["feature"] == feature]
+			if not some: continue
 			axes.loglog([row["zones"] for row in some], [row["ns_zone"] for row in some], "o-" if build == "this" else "s--",
 					label=f"{build}: {feature}")
 	axes.set_xlabel("zones")
 	axes.set_ylabel("CPU time of a step [ns a zone]")
 	axes.grid(True, which="both", alpha=0.3)
-	axes.legend()
+	axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1)) # beside the curves
 	figure.savefig(path, dpi=120, bbox_inches="tight")
 
 
