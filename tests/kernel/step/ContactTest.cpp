@@ -277,6 +277,22 @@ TEST(UnjoinedBlocks, AreThoseThatDetectionFindsBesideTheJoined)
 		EXPECT_EQ(u.block[1], a.blockCount() - 2);
 }
 
+TEST(UnjoinedBlocks, EdgesJoinedInPartAreAsked)
+{
+	// The top of 0 is joined with 2 over one half, the bottom of 3 with 1 over one half; the other halves are 5 mm apart.
+	BlockAssembly a;
+	a.addMaterial(stone());
+	addGrid(a, { 0, 0 }, 2, 1, 1, 1);
+	addGrid(a, { 2, 0 }, 1, 1.005, 1, 1);
+	addGrid(a, { 0, 1 }, 1, 1, 1, 1);
+	addGrid(a, { 1, 1.005 }, 2, 0.995, 1, 1);
+	bondAll(a, elasticJoint(1, 1));
+	const auto found = unjoinedBlocks(a);
+	ASSERT_EQ(found.size(), 1u);
+	EXPECT_EQ(found[0].block, (std::array<int, 2> { 0, 3 }));
+	EXPECT_NEAR(found[0].gap, 5e-3, 1e-12);
+}
+
 TEST(UnjoinedBlocks, WhatComesAfterTheBondMustNotOverlap)
 {
 	const BlockAssembly bonded = voronoi(1.7, 0.9, 3, 2, stone(), elasticJoint(1, 1), 0.4);

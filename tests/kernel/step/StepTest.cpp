@@ -189,6 +189,8 @@ TEST(JointsInBatches, EdgesMatchWhereTheyDoInAllJointsOfABatch)
 		[&](BlockAssembly& a) { a.joints.segments[joint].s1[1] = 0.75; },
 		[&](BlockAssembly& a) { a.joints.segments[joint].s2[0] = 0.75; },
 		[&](BlockAssembly& a) { a.joints.segments[joint].s2[1] = 0.25; },
+		[&](BlockAssembly& a) { a.joints.segments[joint].s1[0] = 0.25, a.joints.segments[joint].s2[0] = 0.75; }, // at the same place, no gap
+		[&](BlockAssembly& a) { a.joints.segments[joint].s1[1] = 0.75, a.joints.segments[joint].s2[1] = 0.25; },
 		[&](BlockAssembly& a) { a.mesh.reference[node[0]].x() += 1e-9; },
 		[&](BlockAssembly& a) { a.mesh.reference[node[3]].y() += 1e-9; },
 		[&](BlockAssembly& a) {
