@@ -111,6 +111,17 @@ inline BlockAssembly column(int n, Real w, Real h, int nx, int ny, const Materia
 	return a;
 }
 
+/// All forces of free contacts on a block.
+inline Vec2 contactForce(const BlockAssembly& a, int block)
+{
+	std::vector<Vec2> f(a.nodeCount(), Vec2::Zero());
+	gatherContactForces(a, block, f.data());
+	Vec2 sum = Vec2::Zero();
+	for (const Vec2& v : f)
+		sum += v;
+	return sum;
+}
+
 inline Polygon rectangle(Real w, Real h) { return { { { 0, 0 }, { w, 0 }, { w, h }, { 0, h } }, {} }; }
 
 /// `count` points in a rectangle, on a jittered grid so that none are close to each other.

@@ -43,6 +43,7 @@ void BlockLoop::computeForces(BlockModel& model, int threads)
 	blocks::BlockAssembly& a = model.assembly;
 	model.requireProperties();
 	if (contact != a.contacts.wanted) blocks::setGeneralContact(a, contact);
+	if (!law && !a.forces.before.status.empty()) a.forces.before = {}; // only other ways to drive the step need it, say behind a load
 	if (law) {
 		if (a.joints.anySoftens())
 			throw std::runtime_error("BlockLoop.law: a law of one's own has no joints that soften; JointMat.GfI and GfII must be 0 with it");

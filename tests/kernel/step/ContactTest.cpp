@@ -1,6 +1,5 @@
 // yade-blocks, GPL-2.0-or-later
 #include <Specimens.hpp>
-#include <blocks/kernel/model/ContactDetection.hpp>
 #include <numeric>
 #include <set>
 

@@ -114,16 +114,6 @@ struct Simulation {
 	std::function<Vec2(int)> rigidVelocity = [](int) { return Vec2(0, 0); };
 };
 
-Vec2 contactForce(const BlockAssembly& a, int block)
-{
-	std::vector<Vec2> f(a.nodeCount(), Vec2::Zero());
-	gatherContactForces(a, block, f.data());
-	Vec2 sum = Vec2::Zero();
-	for (const Vec2& v : f)
-		sum += v;
-	return sum;
-}
-
 void moveBlock(BlockAssembly& a, int block, const Vec2& shift, Real angle = 0)
 {
 	const Vec2 centre = a.centroid(block);

@@ -1,11 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <Specimens.hpp>
-#include <blocks/kernel/analysis/Energy.hpp>
 #include <blocks/kernel/analysis/Removal.hpp>
 #include <blocks/kernel/model/Fingerprint.hpp>
-#include <blocks/kernel/model/JointCorners.hpp>
-#include <blocks/kernel/step/ContactSearch.hpp>
-#include <blocks/kernel/step/Contacts.hpp>
 
 using namespace specimens;
 
@@ -49,16 +45,6 @@ void moveBlock(BlockAssembly& a, int block, const Vec2& by)
 {
 	for (int n = a.mesh.firstNode[block]; n < a.mesh.firstNode[block + 1]; ++n)
 		a.state.displacement[n] += by;
-}
-
-Vec2 contactForce(BlockAssembly& a, int block)
-{
-	std::vector<Vec2> force(a.nodeCount(), Vec2::Zero());
-	gatherContactForces(a, block, force.data());
-	Vec2 sum = Vec2::Zero();
-	for (const Vec2& f : force)
-		sum += f;
-	return sum;
 }
 
 /// Of normal springs [J].
