@@ -48,13 +48,9 @@ template <class Work> void repeat(benchmark::State& state, BlockAssembly a, cons
 	perPart(state, a);
 }
 
-void joints(benchmark::State& state)
+void forces(benchmark::State& state)
 {
-	repeat(state, square(int(state.range(0))), [](BlockAssembly& a, int threads) { advanceJoints(a, Brittle {}, false, threads); });
-}
-void sums(benchmark::State& state)
-{
-	repeat(state, square(int(state.range(0))), [](BlockAssembly& a, int threads) { sumForces(a, false, threads); });
+	repeat(state, square(int(state.range(0))), [](BlockAssembly& a, int threads) { sweepForces(a, Brittle {}, false, threads); });
 }
 void motion(benchmark::State& state)
 {
@@ -92,8 +88,7 @@ void sizes(benchmark::internal::Benchmark* b)
 	b->ArgNames({ "cells", "threads" })->Unit(benchmark::kMicrosecond)->UseRealTime();
 }
 
-BENCHMARK(joints)->Apply(sizes);
-BENCHMARK(sums)->Apply(sizes);
+BENCHMARK(forces)->Apply(sizes);
 BENCHMARK(motion)->Apply(sizes);
 BENCHMARK(step)->Apply(sizes);
 BENCHMARK(stepWithAccounts)->Apply(sizes);

@@ -166,6 +166,20 @@ voronoi(Real w, Real h, int nx, int ny, const Material& m, const JointParams& jo
 /// Everything between positions and forces.
 inline void computeForces(BlockAssembly& a, int threads = 1) { blocks::computeForces(a, Brittle {}, 0, false, threads); }
 
+/// What a joint that is not released exerts on a1, b1, a2, b2, by the stresses in the state [N].
+inline std::array<Vec2, 4> forcesOfJoint(const BlockAssembly& a, int joint)
+{
+	JointBatch b;
+	gatherDisplacements(a, joint, 1, b);
+	moveJoints(a.joints.columns, joint, 1, b);
+	step::loadStresses(a, joint, 1, b);
+	loadEdges(a.joints.columns, joint, 1, b);
+	std::array<Vec2, 4> on;
+	for (int k = 0; k < 4; ++k)
+		on[k] = { b.force.x[k][0], b.force.y[k][0] };
+	return on;
+}
+
 inline Real storedEnergy(const BlockAssembly& a) { return zoneEnergy(a) + jointEnergy(a); }
 
 inline void rotateAbout(BlockAssembly& a, Vec2 centre, Real angle, Vec2 shift, int firstNode = 0, int lastNode = -1)

@@ -20,7 +20,6 @@ void BlockForces::newScene()
 void BlockForces::computeForces(BlockModel& model, int threads)
 {
 	blocks::BlockAssembly& a = model.assembly;
-	blocks::updateJointForces(a, blocks::allJoints(a), threads);
 	blocks::sumForces(a, scene->trackEnergy, threads);
 	blocks::JointHistory& before = a.forces.before; // kept by the assembly, which may be put back to an earlier state
 	if (!scene->trackEnergy) return before.status.clear();

@@ -69,7 +69,7 @@ std::vector<Vec2> jointForces(BlockAssembly& a)
 	std::vector<Vec2> force(a.nodeCount(), Vec2::Zero());
 	for (size_t i = 0; i < a.joints.segments.size(); ++i)
 		for (int k = 0; k < 4; ++k)
-			force[a.joints.segments[i].node[k]] += forcesOf(a, i)[k];
+			force[a.joints.segments[i].node[k]] += forcesOfJoint(a, int(i))[k];
 	return force;
 }
 
@@ -98,7 +98,8 @@ TEST(ContactDetection, ConformingEdge)
 	ASSERT_EQ(a.joints.pairs.size(), 1u);
 	EXPECT_EQ(a.joints.pairs[0].first, 0);
 	EXPECT_EQ(a.joints.pairs[0].last, 1);
-	EXPECT_EQ(a.joints.sideOf[0], (std::array<int, 2> { 0, 1 }));
+	EXPECT_EQ(a.joints.blocksOfBatch[0].first, 0);
+	EXPECT_EQ(a.joints.blocksOfBatch[0].last, 1);
 }
 
 TEST(ContactDetection, AreasAddUpOnUnequalMeshes)

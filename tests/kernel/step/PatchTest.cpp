@@ -362,12 +362,9 @@ TEST(BlockAssembly, RebuiltFromWhatMustBeKept)
 	computeForces(a);
 	BlockAssembly b     = a;
 	b.mesh.zoneGradient = {}, b.mesh.zoneVolume.clear(), b.mesh.isFan.clear(), b.supports.mobility.clear(), b.forces = {};
-	b.joints.node.clear(), b.joints.columns = {}, b.joints.effective.clear(), b.joints.kindOfBatch.clear(), b.joints.sideOf.clear(),
-			       b.joints.firstSide.clear();
+	b.joints.node.clear(), b.joints.columns = {}, b.joints.effective.clear(), b.joints.kindOfBatch.clear(), b.joints.blocksOfBatch.clear();
 	b.rebuild();
 	EXPECT_TRUE(b.supports.mobility == a.supports.mobility);
-	EXPECT_EQ(b.joints.sideOf, a.joints.sideOf);
-	EXPECT_EQ(b.joints.sideNode, a.joints.sideNode);
 	computeForces(b);
 	EXPECT_TRUE(b.forces.nodal == a.forces.nodal);
 }

@@ -59,7 +59,7 @@ BlockAssembly randomState(Real amount, int kinds, unsigned seed)
 		}
 	};
 	shake();
-	advanceJoints(a, Softening {});
+	sweepForces(a, Softening {});
 	shake();
 	return a;
 }
@@ -108,7 +108,7 @@ TEST(SofteningStep, BatchesHaveTheLawsBits)
 				}
 				for (int threads : { 1, 2 }) {
 					BlockAssembly a = start;
-					advanceJoints(a, Softening {}, false, threads);
+					sweepForces(a, Softening {}, false, threads);
 					EXPECT_EQ(fingerprint(a.state), fingerprint(expected.state));
 				}
 				BlockAssembly byPair = start; // as a loop by pairs does it
@@ -128,7 +128,7 @@ TEST(SofteningStep, WhatIsDissipatedIsWorkLessWhatIsStored)
 		for (int kinds : { 1, 3 }) {
 			const BlockAssembly start = randomState(amount, kinds, 5);
 			BlockAssembly       a     = start;
-			advanceJoints(a, Softening {}, true);
+			sweepForces(a, Softening {}, true);
 			const State &before = start.state, &after = a.state;
 			const auto   held = [&](const State& s, int p) {
                                 const SofteningParams softening = a.joints.softeningOf(p / 2);
@@ -167,7 +167,7 @@ TEST(SofteningStep, PulledApartItTakesItsFractureEnergy)
 	const Real    h = 2e-6, ft = 3.5e5;
 	for (int i = 0; i < 2000; ++i) {
 		moveSecond(a, h * normal);
-		advanceJoints(a, Softening {}, true);
+		sweepForces(a, Softening {}, true);
 		const Real un = a.state.opening[0], sigma = a.state.sigma[0], w = un - sigma / 4e9;
 		if (un > ft / 4e9) {
 			EXPECT_NEAR(sigma, ft * leftStrength(ft * w / 120), 1e-9 * ft) << i;
@@ -199,7 +199,7 @@ TEST(SofteningStep, PropertiesMayChangeButNothingHeals)
 {
 	BlockAssembly a = softPair(energies());
 	moveSecond(a, 1.2e-4 * normal);
-	advanceJoints(a, Softening {});
+	sweepForces(a, Softening {});
 	ASSERT_EQ(a.state.status[0], Joint::softening);
 	JointParams stiffer = softJoint();
 	stiffer.kn *= 2;
@@ -215,7 +215,7 @@ TEST(SofteningStep, PropertiesMayChangeButNothingHeals)
 	b.state.status[0] = b.state.status[1] = Joint::brokenInTension;
 	b.changeJoint(0, softJoint(), energies());
 	moveSecond(b, 5e-5 * normal);
-	advanceJoints(b, Softening {});
+	sweepForces(b, Softening {});
 	EXPECT_EQ(b.state.sigma[0], 0);
 	EXPECT_EQ(damageOf(b, 0), 1);
 }
@@ -230,7 +230,7 @@ void slideUntilBroken(BlockAssembly& a)
 	moveSecond(a, -1e-4 * normal);
 	for (int i = 0; i < 400 && a.state.softened.k[1] < softeningEnd; ++i) {
 		moveSecond(a, 1e-4 * along);
-		advanceJoints(a, Softening {});
+		sweepForces(a, Softening {});
 	}
 	ASSERT_EQ(a.state.softened.k[0], softeningEnd);
 }
@@ -270,7 +270,7 @@ TEST(SofteningStep, BrokenJointsBecomeFreeContactsWithoutAJump)
 	BlockAssembly a        = softPair(energies(1), joint);
 	a.joints.ofMaterials   = { a.addKind(neverBonded(joint)) };
 	moveSecond(a, 2e-4 * normal);
-	advanceJoints(a, Softening {});
+	sweepForces(a, Softening {});
 	const Real raised = a.state.uplift[0];
 	ASSERT_GT(raised, 1e-5);
 	slideUntilBroken(a);
@@ -291,7 +291,7 @@ TEST(SofteningStep, JointsWithAnythingLeftStayJoints)
 	};
 	BlockAssembly nearly = softPair(energies()); // cracked, with a tenth of its strength
 	moveSecond(nearly, 9e-4 * normal);
-	advanceJoints(nearly, Softening {});
+	sweepForces(nearly, Softening {});
 	ASSERT_EQ(nearly.state.status[0], Joint::brokenInTension);
 	ASSERT_GT(nearly.state.sigma[0], 0);
 	moveSecond(nearly, -9e-4 * normal); // closed again: no tension that would keep it

@@ -48,7 +48,6 @@ BlockAssembly randomState(const Mixture& m, unsigned seed)
 		}
 		if (share(random) < m.released) a.releaseJoint(i);
 	}
-	a.listSides();
 	updateKinematics(a, allJoints(a)); // the step before
 	std::fill(a.state.sigma.begin(), a.state.sigma.end(), 1e4);
 	std::fill(a.state.tau.begin(), a.state.tau.end(), -2e4);
@@ -59,17 +58,20 @@ BlockAssembly randomState(const Mixture& m, unsigned seed)
 	return a;
 }
 
-/// The joints' pass as the paper has it, one joint and one contact point after the other. Expressions in the order of JointBatch.cpp.
+/// Joints as the paper has them, one joint and one contact point after the other, then the zones block by block. Expressions in the order of
+/// JointBatch.cpp.
 void advanceOneByOne(BlockAssembly& a)
 {
 	State& s = a.state;
+	auto&  f = a.forces.nodal;
+	std::fill(f.begin(), f.end(), Vec2::Zero());
 	for (int i = 0; i < a.joints.count(); ++i) {
 		const Segment& g = a.joints.segments[i];
 		const auto&    X = a.mesh.reference;
 		const auto&    u = s.displacement;
 		const Vec2 e1 = X[g.node[1]] - X[g.node[0]] + (u[g.node[1]] - u[g.node[0]]), e2 = X[g.node[3]] - X[g.node[2]] + (u[g.node[3]] - u[g.node[2]]);
 		const Vec2 d          = X[g.node[2]] - X[g.node[0]] + (u[g.node[2]] - u[g.node[0]]);
-		const JointFrame f    = jointFrame(e1.x(), e1.y(), e2.x(), e2.y());
+		const JointFrame in   = jointFrame(e1.x(), e1.y(), e2.x(), e2.y());
 		const Real       area = s.released[i] ? 0 : g.area;
 		Vec2             on[4];
 		std::fill(on, on + 4, Vec2::Zero());
@@ -77,7 +79,7 @@ void advanceOneByOne(BlockAssembly& a)
 		for (int k : { 0, 1 }) {
 			const int  p  = 2 * i + k;
 			const Real gx = d.x() + g.s2[k] * e2.x() - g.s1[k] * e1.x(), gy = d.y() + g.s2[k] * e2.y() - g.s1[k] * e1.y();
-			const Real dn = gx * f.nx + gy * f.ny, dt = gy * f.nx - gx * f.ny;
+			const Real dn = gx * in.nx + gy * in.ny, dt = gy * in.nx - gx * in.ny;
 			s.opening[p] = dn - a.joints.columns.bondOpening[k][i];
 			s.slip[p]    = dt - a.joints.columns.bondSlip[k][i];
 			JointStep now { 0, 0, s.joint(p) };
@@ -86,16 +88,19 @@ void advanceOneByOne(BlockAssembly& a)
 			s.setJoint(p, now.state);
 			s.sigma[p] = now.sigma, s.tau[p] = now.tau;
 			const Real n = area * now.sigma, t = area * now.tau;
-			const Vec2 force(n * f.nx - t * f.ny, n * f.ny + t * f.nx);
+			const Vec2 force(n * in.nx - t * in.ny, n * in.ny + t * in.nx);
 			on[0] += (1 - g.s1[k]) * force, on[1] += g.s1[k] * force, on[2] -= (1 - g.s2[k]) * force, on[3] -= g.s2[k] * force;
 			moment += n * dt - t * dn;
 		}
 		const Real half = moment / 2;
-		const Vec2 r1(f.r1x, f.r1y), r2(f.r2x, f.r2y);
+		const Vec2 r1(in.r1x, in.r1y), r2(in.r2x, in.r2y);
 		on[0] -= half * r1, on[1] += half * r1, on[2] -= half * r2, on[3] += half * r2;
-		for (int side : { 0, 1 })
-			a.forces.side[a.joints.sideOf[i][side]] = { on[2 * side], on[2 * side + 1] };
+		if (s.released[i]) continue;
+		for (int k = 0; k < 4; ++k)
+			f[g.node[k]] += on[k];
 	}
+	for (int block = 0; block < a.blockCount(); ++block)
+		addZoneForces(a, block, block + 1, f.data());
 }
 
 void expectSameJoints(const BlockAssembly& a, const BlockAssembly& b)
@@ -108,7 +113,7 @@ void expectSameJoints(const BlockAssembly& a, const BlockAssembly& b)
 	EXPECT_EQ(a.state.slipPlastic, b.state.slipPlastic);
 	EXPECT_EQ(a.state.uplift, b.state.uplift);
 	EXPECT_EQ(a.forces.broke, b.forces.broke);
-	EXPECT_TRUE(a.forces.side == b.forces.side);
+	EXPECT_TRUE(a.forces.nodal == b.forces.nodal);
 }
 
 const std::vector<Mixture> mixtures {
@@ -138,18 +143,17 @@ TEST(JointsInBatches, SameBitsAsPointByPoint)
 			ASSERT_NE(start.joints.count() % Joints::batch, 0); // the last batch is not full
 			BlockAssembly expected = start;
 			advanceOneByOne(expected);
-			for (int threads : { 1, 2 })
+			for (int threads : { 1, 2, 3, 7 })
 				for (bool account : { false, true }) {
 					BlockAssembly a = start;
-					advanceJoints(a, Brittle {}, account, threads);
+					sweepForces(a, Brittle {}, account, threads);
 					expectSameJoints(a, expected);
 				}
 			BlockAssembly byRange = start; // as a loop by pairs does it
 			updateKinematics(byRange, allJoints(byRange));
 			for (int pair = 0; pair < int(byRange.joints.pairs.size()); ++pair)
 				advanceStresses(byRange, jointsOf(byRange, pair), Brittle {});
-			for (int pair = 0; pair < int(byRange.joints.pairs.size()); ++pair)
-				updateJointForces(byRange, jointsOf(byRange, pair));
+			sumForces(byRange);
 			expectSameJoints(byRange, expected);
 			for (int p = 0; p < start.pointCount(); ++p) {
 				broke += start.state.status[p] == Joint::intact && expected.state.status[p] != Joint::intact;
@@ -171,8 +175,8 @@ TEST(JointsInBatches, WhereEdgesMatchTheFirstOneSaysAll)
 		auto&         matched = b.joints.columns.matched;
 		ASSERT_GT(std::count(matched.begin(), matched.end(), true), 2);
 		std::fill(matched.begin(), matched.end(), false);
-		advanceJoints(a, Brittle {});
-		advanceJoints(b, Brittle {});
+		sweepForces(a, Brittle {});
+		sweepForces(b, Brittle {});
 		expectSameJoints(a, b);
 	}
 }
@@ -218,8 +222,8 @@ TEST(JointsInBatches, ALawOfOnesOwnIsAskedAtEveryPoint)
 	for (const Mixture& m : mixtures) {
 		SCOPED_TRACE(m.what);
 		BlockAssembly fast = randomState(m, 3), slow = fast;
-		advanceJoints(fast, Brittle {});
-		advanceJoints(slow, Slow {});
+		sweepForces(fast, Brittle {});
+		sweepForces(slow, Slow {});
 		expectSameJoints(slow, fast);
 	}
 }
@@ -231,7 +235,7 @@ TEST(JointsInBatches, DissipationIsWorkLessWhatIsStored)
 		SCOPED_TRACE(m.what);
 		const BlockAssembly start = randomState(m, 5);
 		BlockAssembly       a     = start;
-		advanceJoints(a, Brittle {}, true);
+		sweepForces(a, Brittle {}, true);
 		const State &before = start.state, &after = a.state;
 		Real         friction = 0, fracture = 0, turnover = 0;
 		for (int p = 0; p < a.pointCount(); ++p) {

@@ -9,11 +9,10 @@ namespace {
 	/// Forces at the present places; what is whole stays whole, however little is missing to its strength.
 	void forcesWithoutBreaking(BlockAssembly& a)
 	{
-		advanceJoints(a, [](const JointParams& p, const JointState& s, Real opening, Real slip) {
+		sweepForces(a, [](const JointParams& p, const JointState& s, Real opening, Real slip) {
 			if (s.status != Joint::intact) return advance(p, s, opening, slip);
 			return JointStep { p.kn * (opening - s.uplift), p.ks * (slip - s.slipPlastic), s };
 		});
-		sumForces(a);
 	}
 
 	Real largestJointForce(const BlockAssembly& a)

@@ -170,7 +170,6 @@ LinearModel linearise(const BlockAssembly& assembly, const Growth& growth, int g
 	a.supports.stiffnessDamping = 0;
 	a.state.sigma.assign(a.pointCount(), 0);
 	a.state.tau.assign(a.pointCount(), 0);
-	updateJointForces(a, allJoints(a));
 	sumForces(a); // of the zones alone
 	for (int dof = 0; dof < 2 * a.nodeCount(); ++dof)
 		addForce(m, dof, -a.forces.nodal[dof / 2][dof % 2], m.zoneForce, m.zoneForceDriven);

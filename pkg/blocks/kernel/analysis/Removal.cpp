@@ -71,7 +71,6 @@ void removeBlocks(BlockAssembly& a, std::vector<int> blocks)
 			a.state.lostFriction += c.friction;
 			c = {};
 		}
-	a.listSides();
 	a.updateMobility();
 	if (a.contacts.started || !a.state.contacts.empty()) {
 		sortContacts(a);

@@ -101,7 +101,6 @@ int BlockAssembly::addBlock(
 
 	contacts.started = false; // nobody has looked at it yet
 	rebuildZones(blockCount() - 1);
-	joints.firstSide.push_back(int(joints.sideNode.size()));
 	return blockCount() - 1;
 }
 
@@ -313,30 +312,13 @@ void BlockAssembly::rebuildJoints()
 		if (!isMatched(c, i)) c.matched[i / Joints::batch] = false;
 	}
 	if (count > 0) noteKinds(0, count);
-	listSides();
-}
-
-void BlockAssembly::listSides()
-{
-	auto& first = joints.firstSide;
-	first.assign(blockCount() + 1, 0);
-	for (int i = 0; i < joints.count(); ++i)
-		if (!state.released[i])
-			for (int block : joints.segments[i].block)
-				++first[block + 1];
-	std::partial_sum(first.begin(), first.end(), first.begin());
-	joints.sideNode.resize(first.back());
-	joints.sideOf.assign(joints.count(), { first.back(), first.back() });
-	forces.side.assign(first.back() + 1, { Vec2::Zero(), Vec2::Zero() });
-	std::vector<int> next(first.begin(), first.end() - 1);
-	for (int i = 0; i < joints.count(); ++i)
-		if (!state.released[i])
-			for (int side : { 0, 1 }) {
-				const Segment& g       = joints.segments[i];
-				const int      at      = next[g.block[side]]++;
-				joints.sideOf[i][side] = at;
-				joints.sideNode[at]    = { g.node[2 * side], g.node[2 * side + 1] };
-			}
+	joints.blocksOfBatch.resize(batches);
+	for (int b = 0; b < batches; ++b) {
+		BlockRange& blocks = joints.blocksOfBatch[b];
+		blocks             = { joints.segments[b * Joints::batch].block[0], 0 };
+		for (int i = b * Joints::batch; i < std::min(count, (b + 1) * Joints::batch); ++i)
+			blocks.last = std::max(blocks.last, joints.segments[i].block[1]);
+	}
 }
 
 void BlockAssembly::rebuild()
@@ -354,7 +336,6 @@ void BlockAssembly::restore(const State& earlier)
 	state = earlier;
 	if (!forces.before.status.empty()) forces.before.take(state); // nothing is dissipated on the way back
 	noteKinds(0, joints.count());
-	listSides();
 	rebuildContacts(*this);
 	updateMobility();
 }

@@ -39,12 +39,19 @@ struct JointHistory {
 	}
 };
 
+/// What a batch of joints does to the grid points a1, b1, a2, b2 of each [N].
+struct JointForces {
+	alignas(64) Real x[4][Joints::batch], y[4][Joints::batch];
+};
+
 /// Computed anew in each step.
 struct Forces {
-	std::vector<Vec2>                nodal; ///< unbalanced force of every grid point: zones, joints, contacts, loads [N]
-	std::vector<std::array<Vec2, 2>> side;  ///< of the joint on every side's two grid points, block by block; one more for released joints [N]
-	std::vector<Vec2>                rate;  ///< of damping proportional to stiffness, within `nodal`; empty if there is none [N]
-	std::vector<char>                broke; ///< batch of joints -> whether a contact point of it has broken lately
+	std::vector<Vec2> nodal; ///< unbalanced force of every grid point: zones, joints, contacts, loads [N]
+	std::vector<Vec2> rate;  ///< of damping proportional to stiffness, within `nodal`; empty if there is none [N]
+	std::vector<char> broke; ///< batch of joints -> whether a contact point of it has broken lately
+
+	// ---- only with several threads
+	std::vector<std::vector<JointForces>> crossing; ///< of each part of the blocks: of the batches of joints that also hold blocks of later parts
 
 	// ---- only with energy accounts
 	std::vector<Dissipated> dissipated;  ///< by the joints of every batch
@@ -110,7 +117,7 @@ struct BlockAssembly {
 	/// ... its softening stays.
 	void changeJoint(int joint, const JointParams& p) { changeJoint(joint, p, joints.softeningOf(joint)); }
 
-	/// A joint's edges become a free contact: from here on the joint carries nothing. listSides() afterwards.
+	/// A joint's edges become a free contact: from here on the joint carries nothing.
 	void releaseJoint(int joint);
 
 	/// Joins degrees of freedom into a group that moves as one; a degree of freedom belongs to one group at most.
@@ -127,9 +134,6 @@ struct BlockAssembly {
 
 	/// The same for joints alone.
 	void rebuildJoints();
-
-	/// The sides of the blocks; again whenever joints have been released.
-	void listSides();
 
 	/// inertia -> mobility, with zeros where motion is prescribed.
 	void updateMobility();

@@ -21,6 +21,11 @@ struct Pair {
 	int                first, last;
 };
 
+/// From the first block to the last, which belongs to it.
+struct BlockRange {
+	int first, last;
+};
+
 /// What the step reads of a joint, as columns, one entry a joint. All follows from the segments and the reference positions.
 struct JointColumns {
 	std::vector<Real>                e1x, e1y, e2x, e2y;    ///< edges b1 - a1 and b2 - a2 without stress [m]
@@ -61,11 +66,9 @@ struct Joints {
 	bool                            anyCap = false; ///< whether some kind has a cap
 	std::vector<std::array<int, 4>> node;           ///< of each joint, as in its segment
 	JointColumns                    columns;
-	std::vector<int>                effective;       ///< kind of each joint, or releasedKind
-	std::vector<int>                kindOfBatch;     ///< the kind of all joints in a batch, or mixedKinds
-	std::vector<int>                firstSide { 0 }; ///< block -> its range of sides, in the order in which it gathers them
-	std::vector<std::array<int, 2>> sideNode;        ///< the two grid points of every side
-	std::vector<std::array<int, 2>> sideOf;          ///< joint -> its two sides; those of released joints are one past the last
+	std::vector<int>                effective;     ///< kind of each joint, or releasedKind
+	std::vector<int>                kindOfBatch;   ///< the kind of all joints in a batch, or mixedKinds
+	std::vector<BlockRange>         blocksOfBatch; ///< what the joints of a batch hold; the first blocks ascend
 
 	static constexpr int batch = 32; ///< so many joints at a time
 

@@ -580,7 +580,6 @@ namespace {
 			lost += release(a, now[i], contactOf(a, blocks[i][0], blocks[i][1]), isFirst[i], dt);
 		if (account) a.state.accounts.friction += lost;
 		placeForces(a);
-		a.listSides();
 		++f.version;
 	}
 

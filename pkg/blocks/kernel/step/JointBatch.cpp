@@ -79,10 +79,10 @@ namespace {
 				moment += n * b.dt[k][i] - t * b.dn[k][i];
 			}
 			const Real half = moment / 2; // each edge turns the frame by half its own rotation
-			b.fx[0][i] = a1x - half * b.r1x[i], b.fy[0][i] = a1y - half * b.r1y[i];
-			b.fx[1][i] = b1x + half * b.r1x[i], b.fy[1][i] = b1y + half * b.r1y[i];
-			b.fx[2][i] = a2x - half * b.r2x[i], b.fy[2][i] = a2y - half * b.r2y[i];
-			b.fx[3][i] = b2x + half * b.r2x[i], b.fy[3][i] = b2y + half * b.r2y[i];
+			b.force.x[0][i] = a1x - half * b.r1x[i], b.force.y[0][i] = a1y - half * b.r1y[i];
+			b.force.x[1][i] = b1x + half * b.r1x[i], b.force.y[1][i] = b1y + half * b.r1y[i];
+			b.force.x[2][i] = a2x - half * b.r2x[i], b.force.y[2][i] = a2y - half * b.r2y[i];
+			b.force.x[3][i] = b2x + half * b.r2x[i], b.force.y[3][i] = b2y + half * b.r2y[i];
 		}
 	}
 	WIDE void loadAny(const JointColumns& columns, int first, int count, JointBatch& b) { load<false>(columns, first, count, b); }

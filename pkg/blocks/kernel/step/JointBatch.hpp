@@ -21,8 +21,7 @@ struct JointBatch {
 	alignas(64) Lane opening[2], slip[2];        ///< [m]
 	// ---- stresses
 	alignas(64) Lane sigma[2], tau[2]; ///< [Pa]
-	// ---- forces on a1, b1, a2, b2 [N]
-	alignas(64) Lane fx[4], fy[4];
+	JointForces force;
 };
 
 /// Displacements, gathered.

@@ -40,13 +40,6 @@ Vec2 contactPosition(const BlockAssembly& a, int point)
 	return (a.position(g.node[0]) + g.s1[k] * a.between(g.node[0], g.node[1]) + a.position(g.node[2]) + g.s2[k] * a.between(g.node[2], g.node[3])) / 2;
 }
 
-std::array<Vec2, 4> forcesOf(const BlockAssembly& a, int joint)
-{
-	const auto& side  = a.joints.sideOf[joint];
-	const auto &first = a.forces.side[side[0]], &second = a.forces.side[side[1]];
-	return { first[0], first[1], second[0], second[1] };
-}
-
 void updateKinematics(BlockAssembly& a, JointRange range)
 {
 	JointBatch b;
@@ -55,24 +48,6 @@ void updateKinematics(BlockAssembly& a, JointRange range)
 		moveJoints(a.joints.columns, first, count, b);
 		step::storeMotion(a, first, count, b);
 	});
-}
-
-void updateJointForces(BlockAssembly& a, JointRange range, [[maybe_unused]] int threads)
-{
-	const int firstBatch = range.first / Joints::batch, batches = (range.last + Joints::batch - 1) / Joints::batch;
-#pragma omp parallel num_threads(threads) if (threads > 1)
-	{
-		JointBatch b;
-#pragma omp for schedule(static)
-		for (int batch = firstBatch; batch < batches; ++batch) {
-			const int first = std::max(range.first, batch * Joints::batch), count = std::min(range.last, (batch + 1) * Joints::batch) - first;
-			gatherDisplacements(a, first, count, b);
-			moveJoints(a.joints.columns, first, count, b);
-			step::loadStresses(a, first, count, b);
-			loadEdges(a.joints.columns, first, count, b);
-			step::storeForces(a, first, count, b);
-		}
-	}
 }
 
 void advanceByRanges(BlockAssembly& a, const JointLawOnRange& law, bool account, [[maybe_unused]] int threads)
@@ -94,7 +69,6 @@ void advanceByRanges(BlockAssembly& a, const JointLawOnRange& law, bool account,
 		}
 	}
 	if (failed) std::rethrow_exception(failed);
-	updateJointForces(a, allJoints(a), threads);
 	for (auto& broke : a.forces.broke)
 		broke = true; // the law does not say which
 	if (account) bookDissipation(a, a.forces.before);
@@ -136,16 +110,6 @@ namespace step {
 	{
 		interleave(count, b.sigma[0], b.sigma[1], a.state.sigma.data() + 2 * first);
 		interleave(count, b.tau[0], b.tau[1], a.state.tau.data() + 2 * first);
-	}
-
-	void storeForces(BlockAssembly& a, int first, int count, const JointBatch& b)
-	{
-		auto* const sides = a.forces.side.data();
-		for (int i = 0; i < count; ++i) {
-			const auto& side = a.joints.sideOf[first + i];
-			sides[side[0]]   = { Vec2(b.fx[0][i], b.fy[0][i]), Vec2(b.fx[1][i], b.fy[1][i]) };
-			sides[side[1]]   = { Vec2(b.fx[2][i], b.fy[2][i]), Vec2(b.fx[3][i], b.fy[3][i]) };
-		}
 	}
 
 }

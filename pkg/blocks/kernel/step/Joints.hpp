@@ -21,17 +21,11 @@ JointFrame frameOf(const BlockAssembly&, int joint);
 /// A contact point, midway between its two hosts [m].
 Vec2 contactPosition(const BlockAssembly&, int point);
 
-/// What a joint that is not released exerts on a1, b1, a2, b2 [N].
-std::array<Vec2, 4> forcesOf(const BlockAssembly&, int joint);
-
 /// Of a contact point: 0 whole or never bonded, 1 nothing but residual strength is left; brittle ones have no other values.
 Real damageOf(const BlockAssembly&, int point);
 
 /// Opening and slip at all contact points of a range, into the state.
 void updateKinematics(BlockAssembly&, JointRange);
-
-/// Forces on the edges, from the stresses in the state and the present frames.
-void updateJointForces(BlockAssembly&, JointRange, int threads = 1);
 
 /// The paper's law, and the shape of a law of one's own: a function of a point's properties, state, opening and slip. `plainlyElastic`
 /// says that an intact point carries kn opening and ks slip until it is beyond tension or Mohr-Coulomb; then whole batches
@@ -65,15 +59,15 @@ public:
 	virtual bool serial() const { return false; }
 };
 
-/// Motion, stresses and forces of all joints by such a law, range by range.
+/// Motion and stresses of all joints by such a law, range by range.
 void advanceByRanges(BlockAssembly&, const JointLawOnRange&, bool account, int threads);
 
 namespace step {
-	void gatherProperties(const Joints&, int first, int count, JointBatch&);
-	void storeMotion(BlockAssembly&, int first, int count, const JointBatch&);
-	void loadStresses(const BlockAssembly&, int first, int count, JointBatch&);
-	void storeStresses(BlockAssembly&, int first, int count, const JointBatch&);
-	void storeForces(BlockAssembly&, int first, int count, const JointBatch&);
+	inline int jointsIn(const BlockAssembly& a, int batch) { return std::min(Joints::batch, a.joints.count() - batch * Joints::batch); }
+	void       gatherProperties(const Joints&, int first, int count, JointBatch&);
+	void       storeMotion(BlockAssembly&, int first, int count, const JointBatch&);
+	void       loadStresses(const BlockAssembly&, int first, int count, JointBatch&);
+	void       storeStresses(BlockAssembly&, int first, int count, const JointBatch&);
 
 	template <class Law, class = void> struct IsPlainlyElastic : std::false_type {
 	};
@@ -126,31 +120,22 @@ namespace step {
 		return false;
 	}
 
-	template <class Law> void advanceAll(BlockAssembly& a, const Law& law, bool account, [[maybe_unused]] int threads)
+	/// Motion, stresses and forces of a batch of joints by a law. With `account`, what they dissipate is kept.
+	template <class Law> void workOnBatch(BlockAssembly& a, int batch, const Law& law, bool account, JointBatch& b)
 	{
-		if (account) a.forces.dissipated.assign(a.forces.broke.size(), {}), a.forces.jointEnergy.assign(a.forces.broke.size(), 0);
-		const int batches = int(a.forces.broke.size());
-#pragma omp parallel num_threads(threads) if (threads > 1)
-		{
-			JointBatch b;
-#pragma omp for schedule(static)
-			for (int batch = 0; batch < batches; ++batch) {
-				const int first = batch * Joints::batch, count = std::min(Joints::batch, a.joints.count() - first);
-				gatherDisplacements(a, first, count, b);
-				moveJoints(a.joints.columns, first, count, b);
-				BatchBefore before;
-				if (account) before.take(a.state, first, count);
-				const bool elastic = step::advanceBatch(a, first, count, law, b);
-				if (account)
-					a.forces.jointEnergy[batch] = elastic ? elasticEnergy(a.joints.columns, first, count, b) : heldIn(a, first, count, b);
-				if (account && !elastic) a.forces.dissipated[batch] = dissipatedIn(a, first, count, before, b);
-				loadEdges(a.joints.columns, first, count, b);
-				step::storeMotion(a, first, count, b);
-				step::storeStresses(a, first, count, b);
-				step::storeForces(a, first, count, b);
-			}
+		const int first = batch * Joints::batch, count = jointsIn(a, batch);
+		gatherDisplacements(a, first, count, b);
+		moveJoints(a.joints.columns, first, count, b);
+		BatchBefore before;
+		if (account) before.take(a.state, first, count);
+		const bool elastic = advanceBatch(a, first, count, law, b);
+		if (account) {
+			a.forces.jointEnergy[batch] = elastic ? elasticEnergy(a.joints.columns, first, count, b) : heldIn(a, first, count, b);
+			a.forces.dissipated[batch]  = elastic ? Dissipated() : dissipatedIn(a, first, count, before, b);
 		}
-		if (account) bookDissipation(a);
+		loadEdges(a.joints.columns, first, count, b);
+		storeMotion(a, first, count, b);
+		storeStresses(a, first, count, b);
 	}
 
 	/// Calls work(first, count) for the batches that hold the range, each within one batch of Joints.
@@ -175,16 +160,6 @@ template <class Law> void advanceStresses(BlockAssembly& a, JointRange range, co
 		step::advanceBatch(a, first, count, law, b);
 		step::storeStresses(a, first, count, b);
 	});
-}
-
-/// Motion, stresses and forces of all joints in one pass. Every batch writes its own, so no order matters. With `account`,
-/// a.state.accounts gets what was dissipated.
-template <class Law> void advanceJoints(BlockAssembly& a, const Law& law, bool account = false, [[maybe_unused]] int threads = 1)
-{
-	if constexpr (std::is_base_of_v<JointLawOnRange, Law>)
-		advanceByRanges(a, law, account, threads);
-	else
-		step::advanceAll(a, law, account, threads);
 }
 
 } // namespace blocks

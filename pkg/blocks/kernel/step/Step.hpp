@@ -3,22 +3,35 @@
 #include <blocks/kernel/step/CentralDifference.hpp>
 #include <blocks/kernel/step/ContactSearch.hpp>
 #include <blocks/kernel/step/Contacts.hpp>
-#include <blocks/kernel/step/Joints.hpp>
+#include <blocks/kernel/step/Sweep.hpp>
 
 /// A step: forces from where everything is, then motion from the forces. Engines, tests, benchmarks and the elastic jump all call this.
 namespace blocks {
 
-/// force = load + joints + contacts + zones, block by block in a fixed order: the same bits on any number of threads.
+/// Forces of joints, whose stresses are in the state already, of contacts, zones and loads.
 void sumForces(BlockAssembly&, bool account = false, int threads = 1);
 
-/// The unbalanced force of every grid point. dt: the step that led here, for the friction of free contacts [s]. With `account`, a.state.accounts
-/// gets what joints dissipated, and a.forces.zoneEnergy what the zones hold.
+/// Motion and stresses of joints by a law, and the same forces. With `account`, a.state.accounts gets what joints dissipated, and a.forces.zoneEnergy what the
+/// zones hold.
+template <class Law> void sweepForces(BlockAssembly& a, const Law& law, bool account = false, int threads = 1)
+{
+	if constexpr (std::is_base_of_v<JointLawOnRange, Law>) {
+		advanceByRanges(a, law, account, threads);
+		sumForces(a, account, threads);
+	} else {
+		if (account) a.forces.dissipated.resize(a.forces.broke.size()), a.forces.jointEnergy.resize(a.forces.broke.size());
+		step::sweep(
+			a, [&](int batch, JointBatch& b) { step::workOnBatch(a, batch, law, account, b); }, account, threads);
+		if (account) bookDissipation(a);
+	}
+}
+
+/// The unbalanced force of every grid point. dt: the step that led here, for the friction of free contacts [s].
 template <class Law> void computeForces(BlockAssembly& a, const Law& law, Real dt, bool account = false, int threads = 1)
 {
 	if (a.contacts.wanted) prepareContacts(a, dt, account); // who may touch soon: only where something moved far or broke
-	advanceJoints(a, law, account, threads);                // motion -> opening, slip -> stresses, states -> forces on edges
-	advanceContacts(a, dt, threads);                        // the same for edges that are not bonded, or no more
-	sumForces(a, account, threads);                         // edges, zones, loads -> every grid point, in a fixed order
+	advanceContacts(a, dt, threads);                        // edges that are not bonded, or no more: motion -> slip -> forces
+	sweepForces(a, law, account, threads);                  // block by block: loads, joints, contacts, zones -> force of every grid point
 }
 
 /// Forces -> velocities, displacements; groups first. What it turned over is complete only if `account` says so.

@@ -52,7 +52,7 @@ namespace {
 			loadEdges(c, first, count, b);
 			for (int i = 0; i < count; ++i)
 				for (int k = 0; k < 4; ++k)
-					a.forces.rate[a.joints.node[first + i][k]] += Vec2(b.fx[k][i], b.fy[k][i]);
+					a.forces.rate[a.joints.node[first + i][k]] += Vec2(b.force.x[k][i], b.force.y[k][i]);
 		}
 	}
 
