@@ -312,6 +312,7 @@ void BlockAssembly::rebuildJoints()
 		if (!isMatched(c, i)) c.matched[i / Joints::batch] = false;
 	}
 	if (count > 0) noteKinds(0, count);
+	forces.parts = {};
 	joints.blocksOfBatch.resize(batches);
 	for (int b = 0; b < batches; ++b) {
 		BlockRange& blocks = joints.blocksOfBatch[b];

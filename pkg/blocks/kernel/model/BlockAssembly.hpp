@@ -2,6 +2,7 @@
 #pragma once
 #include <blocks/kernel/model/Joints.hpp>
 #include <blocks/kernel/model/Mesh.hpp>
+#include <blocks/kernel/model/Parts.hpp>
 #include <blocks/kernel/model/State.hpp>
 #include <blocks/kernel/model/Viscous.hpp>
 
@@ -39,19 +40,13 @@ struct JointHistory {
 	}
 };
 
-/// What a batch of joints does to the grid points a1, b1, a2, b2 of each [N].
-struct JointForces {
-	alignas(64) Real x[4][Joints::batch], y[4][Joints::batch];
-};
-
 /// Computed anew in each step.
 struct Forces {
 	std::vector<Vec2> nodal; ///< unbalanced force of every grid point: zones, joints, contacts, loads [N]
 	std::vector<Vec2> rate;  ///< of damping proportional to stiffness, within `nodal`; empty if there is none [N]
 	std::vector<char> broke; ///< batch of joints -> whether a contact point of it has broken lately
 
-	// ---- only with several threads
-	std::vector<std::vector<JointForces>> crossing; ///< of each part of the blocks: of the batches of joints that also hold blocks of later parts
+	Parts parts; ///< how blocks are shared out among threads; made anew where joints or threads are others
 
 	// ---- only with energy accounts
 	std::vector<Dissipated> dissipated;  ///< by the joints of every batch

@@ -3,9 +3,38 @@
 #include <blocks/kernel/step/Contacts.hpp>
 #include <blocks/kernel/step/Sweep.hpp>
 #include <blocks/kernel/step/ZoneForces.hpp>
+#include <numeric>
 
 namespace blocks::step {
 namespace {
+
+	/// What blocks and the joints that begin with them cost, in thirds of a zone: a joint takes seven, and three where its forces are known already.
+	std::vector<long> costsBefore(const BlockAssembly& a, const std::vector<int>& partEnd)
+	{
+		std::vector<long> cost(a.blockCount() + 1, 0);
+		for (int block = 0; block < a.blockCount(); ++block)
+			cost[block + 1] = 1 + 3 * (a.mesh.firstZone[block + 1] - a.mesh.firstZone[block]);
+		for (int batch = 0; batch < int(a.joints.blocksOfBatch.size()); ++batch) {
+			const BlockRange& blocks = a.joints.blocksOfBatch[batch];
+			const int         end    = *std::upper_bound(partEnd.begin(), partEnd.end(), blocks.first);
+			cost[blocks.first + 1] += jointsIn(a, batch) * (blocks.last >= end ? 3 : 7);
+		}
+		std::partial_sum(cost.begin(), cost.end(), cost.begin());
+		return cost;
+	}
+
+	/// Where the parts end, so that they cost about the same. What crosses depends on where they end, so this is done several times.
+	std::vector<int> endsOfParts(const BlockAssembly& a, int threads)
+	{
+		std::vector<int> end { a.blockCount() };
+		for (int pass = 0; pass < (threads > 1 ? 5 : 0); ++pass) {
+			const std::vector<long> cost = costsBefore(a, end);
+			end.assign(threads, a.blockCount());
+			for (int part = 1; part < threads; ++part)
+				end[part - 1] = int(std::lower_bound(cost.begin(), cost.end(), cost.back() * part / threads) - cost.begin());
+		}
+		return end;
+	}
 
 	/// The first batch that begins with this block or a later one.
 	int batchOf(const BlockAssembly& a, int block)
@@ -14,29 +43,44 @@ namespace {
 		return int(std::lower_bound(all.begin(), all.end(), block, [](const BlockRange& b, int wanted) { return b.first < wanted; }) - all.begin());
 	}
 
-	/// Where a part of the blocks begins, of so many that take about equal time: a joint takes seven thirds of that of a zone.
-	int firstOf(const BlockAssembly& a, int part, int parts)
+	Parts makeParts(const BlockAssembly& a, int threads)
 	{
-		if (part == parts) return a.blockCount(); // the last blocks may have neither
-		const auto costBefore = [&](int block) { return 3l * a.mesh.firstZone[block] + 7l * Joints::batch * batchOf(a, block); };
-		const long target     = costBefore(a.blockCount()) * part / parts;
-		int        low = 0, high = a.blockCount();
-		while (low < high) {
-			const int middle = (low + high) / 2;
-			if (costBefore(middle) < target)
-				low = middle + 1;
-			else
-				high = middle;
+		Parts                  parts { threads, a.blockCount(), a.joints.count(), {}, {}, {} };
+		const std::vector<int> end = endsOfParts(a, threads);
+		int                    block = 0;
+		for (int last : end) {
+			parts.all.push_back({ block, last, batchOf(a, block), batchOf(a, last), int(parts.crossing.size()), {} });
+			for (int batch = parts.all.back().firstBatch; batch < parts.all.back().lastBatch; ++batch)
+				if (crosses(a, batch, parts.all.back())) parts.crossing.push_back(batch);
+			block = last;
 		}
-		return low;
+		parts.forces.resize(parts.crossing.size());
+		for (int i = 0; i < int(parts.crossing.size()); ++i) {
+			const int batch = parts.crossing[i];
+			for (int lane = 0; lane < jointsIn(a, batch); ++lane)
+				for (int side : { 0, 1 }) {
+					const int on   = a.joints.segments[batch * Joints::batch + lane].block[side];
+					Part&     part  = parts.all[std::upper_bound(end.begin(), end.end(), on) - end.begin()];
+					if (batch < part.firstBatch) part.incoming.push_back({ i, lane, side });
+				}
+		}
+		return parts;
+	}
+
+	void addSide(BlockAssembly& a, int joint, int side, const JointForces& by, int lane)
+	{
+		const auto& node = a.joints.node[joint];
+		for (int k : { 2 * side, 2 * side + 1 })
+			a.forces.nodal[node[k]] += Vec2(by.x[k][lane], by.y[k][lane]);
 	}
 
 } // namespace
 
-Part partOf(const BlockAssembly& a, int part, int parts)
+Parts& partsFor(BlockAssembly& a, int threads)
 {
-	const int first = firstOf(a, part, parts), last = firstOf(a, part + 1, parts);
-	return { first, last, batchOf(a, first), batchOf(a, last) };
+	Parts& p = a.forces.parts;
+	if (p.threads != threads || p.blocks != a.blockCount() || p.joints != a.joints.count()) p = makeParts(a, threads);
+	return p;
 }
 
 void beginForces(BlockAssembly& a, const Part& part)
@@ -47,6 +91,10 @@ void beginForces(BlockAssembly& a, const Part& part)
 		std::fill(force + node, force + end, Vec2::Zero());
 	else
 		std::copy(a.supports.load.begin() + node, a.supports.load.begin() + end, force + node);
+	for (const IncomingSide& in : part.incoming) {
+		const int joint = a.forces.parts.crossing[in.crossing] * Joints::batch + in.lane;
+		if (a.joints.effective[joint] != releasedKind) addSide(a, joint, in.side, a.forces.parts.forces[in.crossing], in.lane);
+	}
 }
 
 void addJointForces(BlockAssembly& a, int batch, const JointForces& by)
@@ -63,28 +111,12 @@ void addJointForces(BlockAssembly& a, int batch, const JointForces& by)
 
 void addJointForces(BlockAssembly& a, int batch, const JointForces& by, const Part& part)
 {
-	Vec2* const force = a.forces.nodal.data();
-	const int   first = batch * Joints::batch, count = jointsIn(a, batch);
-	for (int i = 0; i < count; ++i) {
-		if (a.joints.effective[first + i] == releasedKind) continue;
-		const Segment& g = a.joints.segments[first + i];
+	const int first = batch * Joints::batch, count = jointsIn(a, batch);
+	for (int i = 0; i < count; ++i)
 		for (int side : { 0, 1 }) {
-			if (g.block[side] < part.firstBlock || g.block[side] >= part.lastBlock) continue;
-			for (int k : { 2 * side, 2 * side + 1 })
-				force[g.node[k]] += Vec2(by.x[k][i], by.y[k][i]);
+			const int block = a.joints.segments[first + i].block[side];
+			if (block < part.lastBlock && a.joints.effective[first + i] != releasedKind) addSide(a, first + i, side, by, i);
 		}
-	}
-}
-
-void addForcesFromBefore(BlockAssembly& a, int part, int parts)
-{
-	const Part own = partOf(a, part, parts);
-	for (int before = 0; before < part; ++before) {
-		const Part other    = partOf(a, before, parts);
-		int        crossing = 0;
-		for (int batch = other.firstBatch; batch < other.lastBatch; ++batch)
-			if (crosses(a, batch, other)) addJointForces(a, batch, a.forces.crossing[before][crossing++], own);
-	}
 }
 
 int pieceEnd(const BlockAssembly& a, int first, int last)

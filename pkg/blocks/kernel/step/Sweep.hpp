@@ -7,41 +7,33 @@
 /// forces go straight to the grid points. Every grid point gets load + joints, in their order, + contacts + zones, on any number of threads.
 namespace blocks::step {
 
-/// The blocks of one thread, and the batches of joints that begin with one of them.
-struct Part {
-	int firstBlock, lastBlock;
-	int firstBatch, lastBatch;
-};
-Part partOf(const BlockAssembly&, int part, int parts);
+/// How the blocks are shared out among so many threads.
+Parts& partsFor(BlockAssembly&, int threads);
 
 /// Whether joints of a batch, which belongs to a part, also hold blocks of later parts.
 inline bool crosses(const BlockAssembly& a, int batch, const Part& part) { return a.joints.blocksOfBatch[batch].last >= part.lastBlock; }
 
-/// Loads.
+/// Loads, and what crossing batches of earlier parts do to blocks of this one.
 void beginForces(BlockAssembly&, const Part&);
 /// The forces of a batch of joints, on all their blocks.
 void addJointForces(BlockAssembly&, int batch, const JointForces&);
 /// ... on blocks of a part alone.
 void addJointForces(BlockAssembly&, int batch, const JointForces&, const Part&);
-/// What batches of earlier parts do to blocks of this one.
-void addForcesFromBefore(BlockAssembly&, int part, int parts);
 /// The end of the piece of blocks that begins with `first`: so few that what belongs to them stays in the nearest cache.
 int pieceEnd(const BlockAssembly&, int first, int last);
 /// Contacts and zones of blocks [first, last).
 void addContactsAndZones(BlockAssembly&, int first, int last, Real* energy);
 
 /// work(batch, b) leaves the forces of a batch of joints in b.
-template <class Work> void sweepPart(BlockAssembly& a, int part, int parts, const Work& work, JointBatch& b, Real* energy)
+template <class Work> void sweepPart(BlockAssembly& a, const Part& part, const Work& work, JointBatch& b, Real* energy)
 {
-	const Part own = partOf(a, part, parts);
-	beginForces(a, own);
-	addForcesFromBefore(a, part, parts);
-	int batch = own.firstBatch, crossing = 0;
-	for (int first = own.firstBlock, next; first < own.lastBlock; first = next) {
-		next = pieceEnd(a, first, own.lastBlock);
-		for (; batch < own.lastBatch && a.joints.blocksOfBatch[batch].first < next; ++batch) {
-			if (crosses(a, batch, own))
-				addJointForces(a, batch, a.forces.crossing[part][crossing++], own);
+	beginForces(a, part);
+	int batch = part.firstBatch, crossing = part.firstCrossing;
+	for (int first = part.firstBlock, next; first < part.lastBlock; first = next) {
+		next = pieceEnd(a, first, part.lastBlock);
+		for (; batch < part.lastBatch && a.joints.blocksOfBatch[batch].first < next; ++batch) {
+			if (crosses(a, batch, part))
+				addJointForces(a, batch, a.forces.parts.forces[crossing++], part);
 			else {
 				work(batch, b);
 				addJointForces(a, batch, b.force);
@@ -51,33 +43,25 @@ template <class Work> void sweepPart(BlockAssembly& a, int part, int parts, cons
 	}
 }
 
-/// Joints that hold blocks of several parts come first.
-template <class Work> void workOnCrossing(BlockAssembly& a, int part, int parts, const Work& work, JointBatch& b)
-{
-	const Part own    = partOf(a, part, parts);
-	auto&      forces = a.forces.crossing[part];
-	forces.clear();
-	for (int batch = own.firstBatch; batch < own.lastBatch; ++batch) {
-		if (!crosses(a, batch, own)) continue;
-		work(batch, b);
-		forces.push_back(b.force);
-	}
-}
-
 template <class Work> void sweep(BlockAssembly& a, const Work& work, bool account, int threads)
 {
 	if (account) a.forces.zoneEnergy.assign(a.blockCount(), 0);
-	Real* const energy = account ? a.forces.zoneEnergy.data() : nullptr;
-	a.forces.crossing.resize(threads); // each grows once
+	Real* const energy   = account ? a.forces.zoneEnergy.data() : nullptr;
+	Parts&      parts    = partsFor(a, threads);
+	const int   crossing = int(parts.crossing.size());
 #pragma omp parallel num_threads(threads) if (threads > 1)
 	{
 		JointBatch b;
+		if (crossing > 0) {
 #pragma omp for schedule(static)
-		for (int part = 0; part < threads - 1; ++part)
-			workOnCrossing(a, part, threads, work, b);
+			for (int i = 0; i < crossing; ++i) {
+				work(parts.crossing[i], b);
+				parts.forces[i] = b.force;
+			}
+		}
 #pragma omp for schedule(static)
 		for (int part = 0; part < threads; ++part)
-			sweepPart(a, part, threads, work, b, energy);
+			sweepPart(a, parts.all[part], work, b, energy);
 	}
 	if (a.supports.stiffnessDamping > 0) addStiffnessDamping(a, threads);
 }
