@@ -1,4 +1,5 @@
 // yade-blocks, GPL-2.0-or-later
+#include <blocks/kernel/Two.hpp>
 #include <blocks/kernel/Wide.hpp>
 #include <blocks/kernel/laws/JointKinematics.hpp>
 #include <blocks/kernel/step/JointBatch.hpp>
@@ -8,12 +9,14 @@ namespace blocks {
 void gatherDisplacements(const BlockAssembly& a, int first, int count, JointBatch& b)
 {
 	const Vec2* u = a.state.displacement.data();
-	for (int i = 0; i < count; ++i) {
-		const auto& node = a.joints.node[first + i];
-		const Vec2 &a1 = u[node[0]], &b1 = u[node[1]], &a2 = u[node[2]], &b2 = u[node[3]];
-		b.u1x[i] = b1.x() - a1.x(), b.u1y[i] = b1.y() - a1.y();
-		b.u2x[i] = b2.x() - a2.x(), b.u2y[i] = b2.y() - a2.y();
-		b.ux[i] = a2.x() - a1.x(), b.uy[i] = a2.y() - a1.y();
+	for (int i = 0; i < count; i += 2) { // an odd last one is taken twice; the columns have room for it
+		const auto &node = a.joints.node[first + i], &next = a.joints.node[first + std::min(i + 1, count - 1)];
+		const Two   a1 = loadTwo(u[node[0]]), a2 = loadTwo(u[node[2]]), u1 = loadTwo(u[node[1]]) - a1, u2 = loadTwo(u[node[3]]) - a2, apart = a2 - a1;
+		const Two   nextA1 = loadTwo(u[next[0]]), nextA2 = loadTwo(u[next[2]]), nextU1 = loadTwo(u[next[1]]) - nextA1,
+			  nextU2 = loadTwo(u[next[3]]) - nextA2, nextApart = nextA2 - nextA1;
+		store(b.u1x + i, firsts(u1, nextU1)), store(b.u1y + i, seconds(u1, nextU1));
+		store(b.u2x + i, firsts(u2, nextU2)), store(b.u2y + i, seconds(u2, nextU2));
+		store(b.ux + i, firsts(apart, nextApart)), store(b.uy + i, seconds(apart, nextApart));
 	}
 }
 

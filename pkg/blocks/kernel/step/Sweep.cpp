@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
+#include <blocks/kernel/Two.hpp>
 #include <blocks/kernel/step/Contacts.hpp>
 #include <blocks/kernel/step/Sweep.hpp>
 #include <blocks/kernel/step/ZoneForces.hpp>
@@ -46,7 +47,7 @@ namespace {
 	Parts makeParts(const BlockAssembly& a, int threads)
 	{
 		Parts                  parts { threads, a.blockCount(), a.joints.count(), {}, {}, {} };
-		const std::vector<int> end = endsOfParts(a, threads);
+		const std::vector<int> end   = endsOfParts(a, threads);
 		int                    block = 0;
 		for (int last : end) {
 			parts.all.push_back({ block, last, batchOf(a, block), batchOf(a, last), int(parts.crossing.size()), {} });
@@ -60,7 +61,7 @@ namespace {
 			for (int lane = 0; lane < jointsIn(a, batch); ++lane)
 				for (int side : { 0, 1 }) {
 					const int on   = a.joints.segments[batch * Joints::batch + lane].block[side];
-					Part&     part  = parts.all[std::upper_bound(end.begin(), end.end(), on) - end.begin()];
+					Part&     part = parts.all[std::upper_bound(end.begin(), end.end(), on) - end.begin()];
 					if (batch < part.firstBatch) part.incoming.push_back({ i, lane, side });
 				}
 		}
@@ -88,7 +89,7 @@ void beginForces(BlockAssembly& a, const Part& part)
 	const int node = a.mesh.firstNode[part.firstBlock], end = a.mesh.firstNode[part.lastBlock];
 	Vec2*     force = a.forces.nodal.data();
 	if (a.supports.load.empty())
-		std::fill(force + node, force + end, Vec2::Zero());
+		std::fill_n(force[node].data(), 2 * (end - node), Real(0));
 	else
 		std::copy(a.supports.load.begin() + node, a.supports.load.begin() + end, force + node);
 	for (const IncomingSide& in : part.incoming) {
@@ -101,11 +102,24 @@ void addJointForces(BlockAssembly& a, int batch, const JointForces& by)
 {
 	Vec2* const force = a.forces.nodal.data();
 	const int   first = batch * Joints::batch, count = jointsIn(a, batch), kind = a.joints.kindOfBatch[batch];
-	for (int i = 0; i < count; ++i) {
-		if (kind < 0 && a.joints.effective[first + i] == releasedKind) continue;
-		const auto& node = a.joints.node[first + i];
+	if (kind < 0) {
+		for (int i = 0; i < count; ++i)
+			if (a.joints.effective[first + i] != releasedKind)
+				for (int side : { 0, 1 })
+					addSide(a, first + i, side, by, i);
+		return;
+	}
+	for (int i = 0; i < count; i += 2) {
+		const bool  two  = i + 1 < count;
+		const auto &node = a.joints.node[first + i], &next = a.joints.node[first + i + (two ? 1 : 0)];
+		Two         x[4], y[4];
 		for (int k = 0; k < 4; ++k)
-			force[node[k]] += Vec2(by.x[k][i], by.y[k][i]);
+			x[k] = loadTwo(by.x[k] + i), y[k] = loadTwo(by.y[k] + i);
+		for (int k = 0; k < 4; ++k)
+			addTo(force[node[k]].data(), firsts(x[k], y[k]));
+		if (!two) break;
+		for (int k = 0; k < 4; ++k)
+			addTo(force[next[k]].data(), seconds(x[k], y[k]));
 	}
 }
 

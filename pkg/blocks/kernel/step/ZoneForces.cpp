@@ -1,16 +1,18 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
+#include <blocks/kernel/Two.hpp>
 #include <blocks/kernel/Wide.hpp>
 #include <blocks/kernel/step/ZoneForces.hpp>
 
 namespace blocks {
 namespace {
 
-	/// Zones in work.
+	/// Zones in work. There is room beyond the last, for columns are written by two.
 	struct Batch {
-		alignas(64) Real px[zoneBatch], py[zoneBatch], qx[zoneBatch], qy[zoneBatch];     ///< displacements of nodes 1 and 2 less that of node 0 [m]
-		alignas(64) Real f1x[zoneBatch], f1y[zoneBatch], f2x[zoneBatch], f2y[zoneBatch]; ///< on nodes 1 and 2 [N]
-		alignas(64) Real energy[zoneBatch];                                              ///< only if somebody asks [J]
+		using Lane = Real[zoneBatch + 8];
+		alignas(64) Lane px, py, qx, qy;     ///< displacements of nodes 1 and 2 less that of node 0 [m]
+		alignas(64) Lane f1x, f1y, f2x, f2y; ///< on nodes 1 and 2 [N]
+		alignas(64) Lane energy;             ///< only if somebody asks [J]
 	};
 
 	/// The arithmetic proper, without indirections.
@@ -90,11 +92,13 @@ namespace {
 	/// How far grid points 1 and 2 of zones have gone beside grid point 0.
 	void gather(Batch& b, const std::array<int, 3>* nodes, int count, const Real* u)
 	{
-		for (int i = 0; i < count; ++i) {
-			const auto& node = nodes[i];
-			const Real  x0 = u[2 * node[0]], y0 = u[2 * node[0] + 1];
-			b.px[i] = u[2 * node[1]] - x0, b.py[i] = u[2 * node[1] + 1] - y0;
-			b.qx[i] = u[2 * node[2]] - x0, b.qy[i] = u[2 * node[2] + 1] - y0;
+		for (int i = 0; i < count; i += 2) { // an odd last one is taken twice
+			const auto &node = nodes[i], &next = nodes[std::min(i + 1, count - 1)];
+			const Two   start = loadTwo(u + 2 * node[0]), p = loadTwo(u + 2 * node[1]) - start, q = loadTwo(u + 2 * node[2]) - start;
+			const Two   nextStart = loadTwo(u + 2 * next[0]), nextP = loadTwo(u + 2 * next[1]) - nextStart,
+				  nextQ = loadTwo(u + 2 * next[2]) - nextStart;
+			store(b.px + i, firsts(p, nextP)), store(b.py + i, seconds(p, nextP));
+			store(b.qx + i, firsts(q, nextQ)), store(b.qy + i, seconds(q, nextQ));
 		}
 	}
 
@@ -112,11 +116,13 @@ namespace {
 			if (energy)
 				for (int i = 0; i < count; ++i)
 					sum += b.energy[i];
-			for (int i = 0; i < count; ++i) {
-				const auto& node = nodes[i];
-				f[2 * node[0]] -= b.f1x[i] + b.f2x[i], f[2 * node[0] + 1] -= b.f1y[i] + b.f2y[i];
-				f[2 * node[1]] += b.f1x[i], f[2 * node[1] + 1] += b.f1y[i];
-				f[2 * node[2]] += b.f2x[i], f[2 * node[2] + 1] += b.f2y[i];
+			const auto add = [f](const std::array<int, 3>& node, Two f1, Two f2) {
+				addTo(f + 2 * node[0], -(f1 + f2)), addTo(f + 2 * node[1], f1), addTo(f + 2 * node[2], f2);
+			};
+			for (int i = 0; i < count; i += 2) {
+				const Two x1 = loadTwo(b.f1x + i), y1 = loadTwo(b.f1y + i), x2 = loadTwo(b.f2x + i), y2 = loadTwo(b.f2y + i);
+				add(nodes[i], firsts(x1, y1), firsts(x2, y2));
+				if (i + 1 < count) add(nodes[i + 1], seconds(x1, y1), seconds(x2, y2));
 			}
 		}
 		if (energy) energy[block] = sum;
@@ -132,27 +138,32 @@ namespace {
 				++block;
 			for (int i = firstBlock; i < block; ++i) {
 				const int   corners = mesh.firstZone[i + 1] - mesh.firstZone[i], slot = mesh.firstZone[i] - firstZone;
-				const Real *x = u + 2 * mesh.firstNode[i], *centre = x + 2 * corners;
-				Real *      px = b.px + slot, *py = b.py + slot, *qx = b.qx + slot, *qy = b.qy + slot;
-				const Real  cx = centre[0], cy = centre[1];
-				for (int k = 0; k < corners - 1; ++k)
-					px[k] = x[2 * k + 2] - x[2 * k], py[k] = x[2 * k + 3] - x[2 * k + 1];
-				px[corners - 1] = x[0] - x[2 * corners - 2], py[corners - 1] = x[1] - x[2 * corners - 1];
-				for (int k = 0; k < corners; ++k)
-					qx[k] = cx - x[2 * k], qy[k] = cy - x[2 * k + 1];
+				const Real* x      = u + 2 * mesh.firstNode[i];
+				const Two   centre = loadTwo(x + 2 * corners);
+				const auto  corner = [=](int k) { return loadTwo(x + 2 * (k < corners ? k : 0)); }; // the first comes after the last
+				for (int k = 0; k < corners; k += 2) { // what is written beyond the last corner is the next block's, or nobody's
+					const Two here = corner(k), next = corner(k + 1), afterNext = corner(k + 2);
+					const Two p0 = next - here, p1 = afterNext - next, q0 = centre - here, q1 = centre - next;
+					store(b.px + slot + k, firsts(p0, p1)), store(b.py + slot + k, seconds(p0, p1));
+					store(b.qx + slot + k, firsts(q0, q1)), store(b.qy + slot + k, seconds(q0, q1));
+				}
 			}
 			law(b, mesh, firstZone, mesh.firstZone[block] - firstZone, m);
 			for (int i = firstBlock; i < block; ++i) {
-				const int   corners = mesh.firstZone[i + 1] - mesh.firstZone[i], slot = mesh.firstZone[i] - firstZone;
-				Real*       at  = f + 2 * mesh.firstNode[i];
-				const Real *f1x = b.f1x + slot, *f1y = b.f1y + slot, *f2x = b.f2x + slot, *f2y = b.f2y + slot;
-				Real        sumX = 0, sumY = 0, beforeX = f1x[corners - 1], beforeY = f1y[corners - 1];
-				for (int k = 0; k < corners; ++k) {
-					at[2 * k] += beforeX - (f1x[k] + f2x[k]), at[2 * k + 1] += beforeY - (f1y[k] + f2y[k]);
-					sumX += f2x[k], sumY += f2y[k];
-					beforeX = f1x[k], beforeY = f1y[k];
+				const int corners = mesh.firstZone[i + 1] - mesh.firstZone[i], slot = mesh.firstZone[i] - firstZone;
+				Real*     at = f + 2 * mesh.firstNode[i];
+				Two       all { 0, 0 }, before { b.f1x[slot + corners - 1], b.f1y[slot + corners - 1] };
+				for (int k = 0; k < corners; k += 2) {
+					const Two x1 = loadTwo(b.f1x + slot + k), y1 = loadTwo(b.f1y + slot + k);
+					const Two x2 = loadTwo(b.f2x + slot + k), y2 = loadTwo(b.f2y + slot + k);
+					addTo(at + 2 * k, before - (firsts(x1, y1) + firsts(x2, y2)));
+					all += firsts(x2, y2);
+					if (k + 1 == corners) break;
+					addTo(at + 2 * k + 2, firsts(x1, y1) - (seconds(x1, y1) + seconds(x2, y2)));
+					all += seconds(x2, y2);
+					before = seconds(x1, y1);
 				}
-				at[2 * corners] += sumX, at[2 * corners + 1] += sumY;
+				addTo(at + 2 * corners, all);
 				if (!energy) continue;
 				Real sum = 0;
 				for (int k = 0; k < corners; ++k)
