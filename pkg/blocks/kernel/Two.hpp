@@ -15,7 +15,7 @@ inline __attribute__((always_inline)) Two loadTwo(const Real* from)
 	std::memcpy(&two, from, sizeof two);
 	return two;
 }
-inline __attribute__((always_inline)) Two loadTwo(const Vec2& from) { return loadTwo(from.data()); }
+inline __attribute__((always_inline)) Two  loadTwo(const Vec2& from) { return loadTwo(from.data()); }
 inline __attribute__((always_inline)) void store(Real* to, Two two) { std::memcpy(to, &two, sizeof two); }
 inline __attribute__((always_inline)) void addTo(Real* to, Two two) { store(to, loadTwo(to) + two); }
 
