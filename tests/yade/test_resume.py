@@ -15,8 +15,8 @@ from yadeblocks import recording, running
 
 quick = { # some seconds each, with cracks
 	'tension': ['case=TT3', 'alpha=0.3', 'steps=800000', 'seeds=2', 'vtk=false'],
-	'shear': ['size=7e-3', 'steps=4000', 'vtk=false'],
-	'compression': ['width=0.1', 'unitSize=0.02', 'mortarSize=0.006', 'steps=12000', 'vtk=false']
+	'shear': ['size=7e-3', 'steps=60000', 'vtk=false'],
+	'compression': ['width=0.1', 'unitSize=0.02', 'mortarSize=0.006', 'steps=120000', 'vtk=false']
 }
 kills = int(os.environ.get('KILLS', 5))
 
