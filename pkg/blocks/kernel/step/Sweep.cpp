@@ -10,6 +10,7 @@ namespace blocks::step {
 namespace {
 
 	/// What blocks and the joints that begin with them cost, in thirds of a zone: a joint takes seven, and three where its forces are known already.
+	/// That is from profiles of a couplet on one machine; the three is a guess. No result depends on it.
 	std::vector<long> costsBefore(const BlockAssembly& a, const std::vector<int>& partEnd)
 	{
 		std::vector<long> cost(a.blockCount() + 1, 0);
