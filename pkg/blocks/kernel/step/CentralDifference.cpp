@@ -144,20 +144,32 @@ namespace {
 		return account ? adaptiveBooked : adaptive;
 	}
 
-	/// Ranges of a fixed length, summed in their order: the result does not know how many threads there were.
-	Sums advanceAll(Advance advance, const Arrays& a, int count, const Rates& r, bool follow, [[maybe_unused]] int threads)
+	constexpr int range = 4096; ///< degrees of freedom whose sums are taken together: the result does not know how many threads there were
+
+	/// The first range of a thread: close to where its blocks begin, whose grid points are in the cache of its processor since the forces.
+	int firstRange(const BlockAssembly& a, int part, int threads)
 	{
-		constexpr int                         range  = 4096;
-		const int                             ranges = (count + range - 1) / range;
+		const int    ranges = (2 * a.nodeCount() + range - 1) / range;
+		const Parts& parts  = a.forces.parts;
+		if (part == 0 || part == threads) return part == 0 ? 0 : ranges;
+		if (parts.threads != threads || parts.blocks != a.blockCount()) return int(long(ranges) * part / threads); // forces came from elsewhere
+		return (2 * a.mesh.firstNode[parts.all[part].firstBlock] + range / 2) / range;
+	}
+
+	/// Range by range, summed in their order.
+	Sums advanceAll(const BlockAssembly& a, Advance advance, const Arrays& arrays, const Rates& r, bool follow, [[maybe_unused]] int threads)
+	{
+		const int                             count = 2 * a.nodeCount();
 		static thread_local std::vector<Sums> partial; // grows once
-		partial.resize(ranges);
-		Sums* const part = partial.data();
+		partial.resize((count + range - 1) / range);
+		Sums* const sums = partial.data();
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-		for (int i = 0; i < ranges; ++i) {
-			const int first = i * range, last = std::min(count, first + range);
-			part[i] = advance(a, first, last, r);
-			if (follow) part[i].fastest = largest(a.v + first, last - first);
-		}
+		for (int part = 0; part < threads; ++part)
+			for (int i = firstRange(a, part, threads), end = firstRange(a, part + 1, threads); i < end; ++i) {
+				const int first = i * range, last = std::min(count, first + range);
+				sums[i] = advance(arrays, first, last, r);
+				if (follow) sums[i].fastest = largest(arrays.v + first, last - first);
+			}
 		Sums total;
 		for (const Sums& s : partial)
 			total += s;
@@ -229,7 +241,7 @@ StepWork integrate(BlockAssembly& a, const Damping& damping, Real dt, Real time,
 	};
 	Odometer&  odometer = a.contacts.odometer;
 	const bool follow   = a.contacts.started && !a.contacts.strangers;
-	Sums       sums     = advanceAll(advanceOf(damping.kind, account), arrays, 2 * a.nodeCount(), rates, follow, threads);
+	Sums       sums     = advanceAll(a, advanceOf(damping.kind, account), arrays, rates, follow, threads);
 	if (!a.supports.dashpots.empty()) sums.fastest = std::max(sums.fastest, viscous.end(a, dt, time, work));
 	if (strains) a.state.further.pendingStiffness = -stiffnessDampingPower(a) * dt / 2;
 	if (follow) odometer.fastest = sums.fastest, odometer.unseen += sums.fastest * dt, odometer.sinceLook += sums.fastest * dt;

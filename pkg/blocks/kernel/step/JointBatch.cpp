@@ -105,15 +105,14 @@ void loadEdges(const JointColumns& columns, int first, int count, JointBatch& b)
 
 WIDE int elasticStresses(int count, JointBatch& b)
 {
-	std::int64_t beyond = 0;
+	std::int64_t broken = 0;
 #pragma GCC ivdep
 	for (int i = 0; i < count; ++i)
 		for (int k = 0; k < 2; ++k) {
-			const Real sigma = b.kn[i] * b.opening[k][i], tau = b.ks[i] * b.slip[k][i];
-			b.sigma[k][i] = sigma, b.tau[k][i] = tau;
-			beyond += (sigma > b.tension[i]) | (std::abs(tau) > b.cohesion[i] - sigma * b.tanPhi[i]);
+			b.sigma[k][i] = b.kn[i] * b.opening[k][i], b.tau[k][i] = b.ks[i] * b.slip[k][i];
+			broken += beyond(b, i, k);
 		}
-	return int(beyond);
+	return int(broken);
 }
 
 WIDE Real elasticEnergy(const JointColumns& columns, int first, int count, const JointBatch& b)

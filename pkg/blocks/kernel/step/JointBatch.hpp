@@ -33,6 +33,12 @@ void moveJoints(const JointColumns&, int first, int count, JointBatch&);
 /// Stresses as long as nothing breaks, for joints that have no slip and no uplift; how many contact points this takes beyond a strength.
 int elasticStresses(int count, JointBatch&);
 
+/// Whether the elastic stresses of a contact point are beyond its strength.
+inline bool beyond(const JointBatch& b, int joint, int k)
+{
+	return (b.sigma[k][joint] > b.tension[joint]) | (std::abs(b.tau[k][joint]) > b.cohesion[joint] - b.sigma[k][joint] * b.tanPhi[joint]);
+}
+
 /// What the springs of joints hold that are all elastic [J].
 Real elasticEnergy(const JointColumns&, int first, int count, const JointBatch&);
 

@@ -85,18 +85,21 @@ namespace step {
 	template <class Law> int beyondCaps(const Law&, const BlockAssembly&, int, int, const JointBatch&) { return 0; }
 	int                      beyondCaps(const Softening&, const BlockAssembly&, int first, int count, const JointBatch&);
 
-	/// Stresses of joints first, first + 1, ... from their openings and slips in the batch; states change where joints break or slide.
-	/// Whether every contact point was intact and is.
+	/// Stresses of joints first, first + 1, ... from their openings and slips in the batch; states change where joints break or slide. Where intact points are
+	/// plainly elastic, only the others ask the law. Whether every contact point was intact and is.
 	template <class Law> bool advanceBatch(BlockAssembly& a, int first, int count, const Law& law, JointBatch& b)
 	{
-		State& s = a.state;
+		State&        s           = a.state;
+		const Joint*  status      = s.status.data() + 2 * first;
+		[[maybe_unused]] bool yet = false; // whether points that are intact and not beyond a strength have their stresses
 		if constexpr (IsPlainlyElastic<Law>::value) {
 			gatherProperties(a.joints, first, count, b);
-			const Joint* status = s.status.data() + 2 * first;
-			int          whole  = 0;
+			int whole = 0;
 			for (int p = 0; p < 2 * count; ++p)
 				whole += status[p] == Joint::intact;
-			if (elasticStresses(count, b) == 0 && whole == 2 * count && beyondCaps(law, a, first, count, b) == 0) return true;
+			const int beyond = elasticStresses(count, b);
+			yet              = beyondCaps(law, a, first, count, b) == 0;
+			if (yet && beyond == 0 && whole == 2 * count) return true;
 		}
 		for (int i = 0; i < count; ++i) {
 			if (a.joints.effective[first + i] == releasedKind) {
@@ -105,7 +108,8 @@ namespace step {
 				continue;
 			}
 			for (int k : { 0, 1 }) {
-				const int       p   = 2 * (first + i) + k;
+				const int p = 2 * (first + i) + k;
+				if (yet && status[2 * i + k] == Joint::intact && !beyond(b, i, k)) continue;
 				const JointStep now = advancePoint(law, a, p, b.opening[k][i], b.slip[k][i]);
 				b.sigma[k][i]       = now.sigma;
 				b.tau[k][i]         = now.tau;

@@ -102,25 +102,25 @@ void beginForces(BlockAssembly& a, const Part& part)
 void addJointForces(BlockAssembly& a, int batch, const JointForces& by)
 {
 	Vec2* const force = a.forces.nodal.data();
-	const int   first = batch * Joints::batch, count = jointsIn(a, batch), kind = a.joints.kindOfBatch[batch];
-	if (kind < 0) {
-		for (int i = 0; i < count; ++i)
-			if (a.joints.effective[first + i] != releasedKind)
-				for (int side : { 0, 1 })
-					addSide(a, first + i, side, by, i);
-		return;
-	}
+	const int   first = batch * Joints::batch, count = jointsIn(a, batch);
+	const bool  all      = a.joints.kindOfBatch[batch] >= 0;
+	auto        carries  = [&](int i) { return all || a.joints.effective[first + i] != releasedKind; };
+	auto        addBoth  = [&](int i) { addSide(a, first + i, 0, by, i), addSide(a, first + i, 1, by, i); };
 	for (int i = 0; i < count; i += 2) {
-		const bool  two  = i + 1 < count;
-		const auto &node = a.joints.node[first + i], &next = a.joints.node[first + i + (two ? 1 : 0)];
-		Two         x[4], y[4];
-		for (int k = 0; k < 4; ++k)
-			x[k] = loadTwo(by.x[k] + i), y[k] = loadTwo(by.y[k] + i);
-		for (int k = 0; k < 4; ++k)
-			addTo(force[node[k]].data(), firsts(x[k], y[k]));
-		if (!two) break;
-		for (int k = 0; k < 4; ++k)
-			addTo(force[next[k]].data(), seconds(x[k], y[k]));
+		const bool one = carries(i), other = i + 1 < count && carries(i + 1);
+		if (one && other) {
+			const auto &node = a.joints.node[first + i], &next = a.joints.node[first + i + 1];
+			Two         x[4], y[4];
+			for (int k = 0; k < 4; ++k)
+				x[k] = loadTwo(by.x[k] + i), y[k] = loadTwo(by.y[k] + i);
+			for (int k = 0; k < 4; ++k)
+				addTo(force[node[k]].data(), firsts(x[k], y[k]));
+			for (int k = 0; k < 4; ++k)
+				addTo(force[next[k]].data(), seconds(x[k], y[k]));
+		} else if (one)
+			addBoth(i);
+		else if (other)
+			addBoth(i + 1);
 	}
 }
 
