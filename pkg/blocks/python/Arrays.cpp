@@ -62,13 +62,12 @@ namespace {
 		std::vector<int>     both, nodes;
 		std::vector<Real>    force;
 		for (int i : a.contacts.order)
-			for (int k = a.contacts.forcesOf(i).first; k < a.contacts.forcesOf(i).last; ++k) {
-				const blocks::PairForce& on    = a.contacts.forces[k];
-				const Vec2               first = on.force[0] + on.force[1];
+			forEachTouching(a.contacts, a.state.contacts[i], i, [&](const blocks::EdgePair& pair, const blocks::SideForce& on) {
+				const Vec2 first = on.force[0] + on.force[1];
 				both.insert(both.end(), a.state.contacts[i].block.begin(), a.state.contacts[i].block.end());
-				nodes.insert(nodes.end(), on.node.begin(), on.node.end());
+				nodes.insert(nodes.end(), pair.node.begin(), pair.node.end());
 				force.insert(force.end(), { first[0], first[1] });
-			}
+			});
 		const auto table = [](auto& numbers, int columns) { return numpyOf(numbers, false).attr("copy")().attr("reshape")(-1, columns); };
 		py::dict   out;
 		out["blocks"] = table(both, 2);

@@ -192,9 +192,10 @@ TEST(Removal, WhatIsLeftStandsOnItsContacts)
 	const auto between = [&](int lower, int upper) {
 		Real sum = 0;
 		for (int i : a.contacts.order)
-			for (int k = a.contacts.forcesOf(i).first; k < a.contacts.forcesOf(i).last; ++k)
-				if (a.state.contacts[i].block == std::array<int, 2> { lower, upper })
-					sum -= a.contacts.forces[k].force[0].y() + a.contacts.forces[k].force[1].y();
+			if (a.state.contacts[i].block == std::array<int, 2> { lower, upper })
+				forEachTouching(a.contacts, std::as_const(a.state.contacts)[i], i, [&](const EdgePair&, const SideForce& on) {
+					sum -= on.force[0].y() + on.force[1].y();
+				});
 		return sum;
 	};
 	const Real one = weight(1);

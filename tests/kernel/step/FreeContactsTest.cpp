@@ -954,14 +954,13 @@ TEST(FreeContacts, RestingChangesNothing)
 	for (int i = 0; i < 3000; ++i) {
 		s.steps(1, [&](Real) {
 			for (int c : resting.contacts.order)
-				for (Real until : resting.state.contacts[c].restUntil)
+				for (const Rest& rest : std::as_const(resting.state.contacts)[c].rests)
 					++pairs,
-						asleep += until != inWork
-						&& until > resting.contacts.odometer.path[resting.state.contacts[c].block[0]]
+						asleep += rest.until != inWork
+						&& rest.until > resting.contacts.odometer.path[resting.state.contacts[c].block[0]]
 								+ resting.contacts.odometer.path[resting.state.contacts[c].block[1]];
 		});
 		for (FreeContact& c : restless.state.contacts) {
-			std::fill(c.restUntil.begin(), c.restUntil.end(), 0);
 			std::fill(c.rests.begin(), c.rests.end(), Rest());
 		}
 		for (Sleep& contact : restless.contacts.sleep)

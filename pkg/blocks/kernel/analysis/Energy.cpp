@@ -106,8 +106,9 @@ namespace {
 			}
 		}
 		for (int i : a.contacts.order)
-			for (int k = a.contacts.forcesOf(i).first; k < a.contacts.forcesOf(i).last; ++k)
-				sum.contact += (a.contacts.forces[k].force[0] + a.contacts.forces[k].force[1]).lpNorm<1>();
+			forEachTouching(a.contacts, a.state.contacts[i], i, [&](const EdgePair&, const SideForce& on) {
+				sum.contact += (on.force[0] + on.force[1]).lpNorm<1>();
+			});
 		return sum;
 	}
 

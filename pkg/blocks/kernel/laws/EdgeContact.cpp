@@ -8,31 +8,29 @@ namespace {
 
 	Corners plain(const FourPoints& p) { return { { { p[0].x(), p[0].y() }, { p[1].x(), p[1].y() }, { p[2].x(), p[2].y() }, { p[3].x(), p[3].y() } } }; }
 
-	Vec2 turned(const Vec2& v) { return { -v.y(), v.x() }; }
-	Vec2 outward(const Vec2& e) { return { e.y(), -e.x() }; }
+	FourPoints points(const Corners& c) { return { c[0], c[1], c[2], c[3] }; }
 
 } // namespace
 
 FourPoints raised(const FourPoints& p, Real uplift)
 {
-	const Vec2 up = uplift * outward((p[1] - p[0]).normalized());
-	return { p[0] + up, p[1] + up, p[2], p[3] };
+	Corners c = plain(p);
+	raiseEdge(c, uplift);
+	return points(c);
 }
 
-FourPoints raisedVelocity(const FourPoints& p, Real uplift, const FourPoints& v)
+FourPoints raisedVelocity(const FourPoints& p, Real uplift, const FourPoints& velocity)
 {
-	// the normal turns towards e as e turns towards its left
-	const Vec2 A    = p[1] - p[0];
-	const Vec2 more = uplift * turned(A).dot(v[1] - v[0]) / A.squaredNorm() * A.normalized();
-	return { v[0] + more, v[1] + more, v[2], v[3] };
+	Corners v = plain(velocity);
+	raiseVelocity(plain(p), uplift, v);
+	return points(v);
 }
 
 void lowerForces(const FourPoints& p, Real uplift, FourPoints& force)
 {
-	const Vec2 A      = p[1] - p[0];
-	const Vec2 couple = uplift * (force[0] + force[1]).dot(A.normalized()) / A.squaredNorm() * turned(A);
-	force[0] -= couple;
-	force[1] += couple;
+	Corners f = plain(force);
+	lowerEdgeForces(plain(p), uplift, f);
+	force = points(f);
 }
 
 EdgeGeometry edgeGeometry(const FourPoints& p, const EdgeShape& shape) { return geometryOfEdges(plain(p), shape); }
@@ -116,7 +114,7 @@ void addNormalForces(const FourPoints& p, const EdgeShape& shape, const EdgeGeom
 {
 	Corners sum = plain(force);
 	pushEdges(plain(p), shape, g, scale, sum);
-	std::copy(sum.begin(), sum.end(), force.begin());
+	force = points(sum);
 }
 
 EdgeEnd edgeEnd(const FourPoints& p, const EdgeGeometry& g, int k) { return k == 0 ? endOfEdges<0>(plain(p), g) : endOfEdges<1>(plain(p), g); }

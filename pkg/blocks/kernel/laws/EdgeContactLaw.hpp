@@ -140,6 +140,25 @@ ALWAYS EdgeGeometry geometryOfEdges(const Corners& p, const EdgeShape& shape)
 	return g;
 }
 
+/// See raised(), raisedVelocity() and lowerForces(). p: the raised corners, of which the length of A is that of the others.
+ALWAYS XY   unit(const XY& v) { return { v.x / std::sqrt(dot(v, v)), v.y / std::sqrt(dot(v, v)) }; }
+ALWAYS void raiseEdge(Corners& p, Real uplift)
+{
+	const XY up = uplift * outward(unit(p[1] - p[0]));
+	p[0] += up, p[1] += up;
+}
+ALWAYS void raiseVelocity(const Corners& p, Real uplift, Corners& v)
+{
+	// the normal turns towards e as e turns towards its left
+	const XY A = p[1] - p[0], more = uplift * dot(turned(A), v[1] - v[0]) / dot(A, A) * unit(A);
+	v[0] += more, v[1] += more;
+}
+ALWAYS void lowerEdgeForces(const Corners& p, Real uplift, Corners& force)
+{
+	const XY A = p[1] - p[0], couple = uplift * dot(force[0] + force[1], unit(A)) / dot(A, A) * turned(A);
+	force[0] -= couple, force[1] += couple;
+}
+
 ALWAYS Real potentialOfEdges(const EdgeGeometry& g) { return g.c * g.c * g.length * g.sum * g.h / 4; }
 
 ALWAYS void pushEdges(const Corners& p, const EdgeShape& shape, const EdgeGeometry& g, Real scale, Corners& force)

@@ -9,14 +9,19 @@
 /// asked anew who rests.
 namespace blocks {
 
+struct EdgePair;
+struct FreeContact;
+
 /// Up to so many edge pairs. Arrays of four belong to the corners a0, a1, b0, b1, arrays of two to the ends of the overlap.
 struct EdgeColumns {
 	static constexpr int size = 16;
 	using Lane                = Real[size];
 
 	int                count = 0;
-	int                contact[size], pair[size]; ///< which edge pair of which contact
-	std::array<int, 4> node[size];                ///< grid points of the corners
+	FreeContact*       contact[size];
+	EdgePair*          pair[size];
+	std::array<int, 4> node[size]; ///< grid points of the corners
+	std::array<int, 2> side[size]; ///< where the forces on either block go, see FreeContacts::forces
 
 	// ---- what does not change while a pair is in work
 	alignas(64) Lane fromX[3] {}, fromY[3] {};                                          ///< a1, b0 and b1 as seen from a0, without stress [m]
@@ -26,6 +31,7 @@ struct EdgeColumns {
 	bool raised = false; ///< whether any uplift is not 0
 
 	// ---- from step to step
+	char             touched[size]; ///< whether it did, as the pair has it: 1, 0, or -1 where that is to be looked up
 	alignas(64) Lane slip[2] {}, area {};
 };
 

@@ -102,7 +102,6 @@ void nameEdges(const BlockAssembly& a, EdgePair& e)
 
 void forgetActive(FreeContact& contact)
 {
-	contact.restUntil.assign(contact.edges.size(), 0);
 	contact.rests.assign(contact.edges.size(), {});
 	contact.active.clear();
 	contact.active.reserve(contact.edges.size()); // nothing is allocated inside a step
@@ -116,9 +115,9 @@ void placeForces(BlockAssembly& a)
 		s.until = 0;
 	f.range.resize(f.ofBlock.size());
 	const auto& all = std::as_const(a.state.contacts);
-	for (int i : f.order) {
-		f.setForcesOf(i, { room, room });
-		room += int(all[i].edges.size());
+	for (size_t i = 0; i < f.ofBlock.size(); ++i) {
+		f.range[i] = { room, room };
+		room += int(all[f.ofBlock[i]].edges.size());
 	}
 	f.forces.resize(room);
 }
@@ -128,13 +127,15 @@ void followEdition(BlockAssembly& a)
 	FreeContacts& f = a.contacts;
 	if (f.columnsOf == a.state.contacts.edition()) return;
 	f.columnsOf          = a.state.contacts.edition();
-	const auto& all      = std::as_const(a.state.contacts);
-	const int   contacts = int(f.order.size());
+	const int contacts = int(f.order.size());
 	f.inWork.resize((contacts + FreeContacts::run - 1) / FreeContacts::run);
 	for (int first = 0; first < contacts; first += FreeContacts::run) {
 		size_t pairs = 0;
-		for (int place = first; place < std::min(contacts, first + FreeContacts::run); ++place)
-			pairs += all[f.order[place]].edges.size();
+		for (int place = first; place < std::min(contacts, first + FreeContacts::run); ++place) {
+			FreeContact& c       = a.state.contacts.keepingEdition(f.order[place]);
+			f.sleep[place].pairs = int(c.edges.size()), f.sleep[place].rests = c.rests.data();
+			pairs += c.edges.size();
+		}
 		f.inWork[first / FreeContacts::run].startAnew(pairs);
 	}
 }

@@ -22,37 +22,39 @@
 /// together go far without nearing each other: so before a pair is looked at, its corners are compared with where they were.
 namespace blocks {
 
-/// Two edges of two blocks that touch or may do so soon.
-struct EdgePair {
-	std::array<int, 2>  edge; ///< of the first block and of the second
-	std::array<int, 4>  node; ///< a0, a1, b0, b1
-	bool                touching = false;
+/// Two edges of two blocks that touch or may do so soon. What a step writes lies in one cache line.
+struct alignas(64) EdgePair {
 	std::array<Real, 2> slip { 0, 0 };  ///< elastic slip of the two ends: tau / ks [m]
 	std::array<Real, 2> sigma { 0, 0 }; ///< normal stress of the ends, tension positive [Pa]
 	std::array<Real, 2> tau { 0, 0 };   ///< shear stress; positive drags the first block along e_A [Pa]
 	Real                area      = 0;  ///< of each end, in the step of the stresses [m2]
 	Real                potential = 0;  ///< of the normal stresses, per kn and thickness, while the edges touch [m3]
-	Real                uplift    = 0;  ///< see raised(): what the joint had dilated that became this pair; below 0 what overlapped then [m]
-	EdgeShape           shape;
-};
 
-/// What is known of a pair of edges that does not touch: as long as its corners are close to where they were, it goes on not touching.
-struct Rest {
-	Real                free = 0; ///< so close, those of A and those of B taken together; 0 where nothing is known [m]
-	std::array<Vec2, 3> from;     ///< displacements of a1, b0, b1 less that of a0 when `free` was measured; none while it is 0 [m]
+	std::array<int, 2> edge; ///< of the first block and of the second
+	std::array<int, 4> node; ///< a0, a1, b0, b1
+	bool               touching = false;
+	Real               uplift   = 0; ///< see raised(): what the joint had dilated that became this pair; below 0 what overlapped then [m]
+	EdgeShape          shape;
 };
 
 /// In place of when to ask a pair whether it rests on: it does not rest, it is in work.
 constexpr Real inWork = std::numeric_limits<Real>::infinity();
 
+/// What is known of a pair of edges that does not touch: as long as its corners are close to where they were, it goes on not touching.
+struct Rest {
+	Real                until = 0; ///< it does not touch before the paths of the two blocks add up to this, or is inWork [m]
+	Real                free  = 0; ///< so close, the corners of A and those of B taken together; 0 where nothing is known [m]
+	std::array<int, 4>  node { };  ///< a0, a1, b0, b1
+	std::array<Vec2, 3> from;      ///< displacements of a1, b0, b1 less that of a0 when `free` was measured; none while it is 0 [m]
+};
+
 /// All that happens between two blocks, apart from their bonds.
 struct FreeContact {
 	std::array<int, 2>    block { -1, -1 }; ///< first < second; -1: an empty slot
-	std::vector<int>      active;           ///< those of `edges` that touch, as of the last step
-	std::vector<EdgePair> edges;            ///< sorted by edge
-	std::vector<Real>     restUntil;        ///< each of `edges` does not touch before the paths of the two blocks add up to this, or is inWork [m]
-	std::vector<Rest>     rests;            ///< of each of `edges`
 	Real                  friction = 0;     ///< dissipated so far [J]
+	std::vector<EdgePair> edges;            ///< sorted by edge
+	std::vector<Rest>     rests;            ///< of each of `edges`
+	std::vector<int>      active;           ///< those of `edges` that touch, as of the last step
 	JointParams           joint;            ///< residual values count; kn = 0 until they are known
 };
 
@@ -117,15 +119,17 @@ struct Sleep {
 	std::array<int, 2> block;
 	Real               until  = 0; ///< no pair that rests touches before the paths of the two blocks add up to this [m]
 	int                inWork = 0; ///< pairs that do not rest
+	int                pairs  = 0;
+	Rest*              rests  = nullptr; ///< of its pairs; known while the columns are, see followEdition()
 };
 
-/// What the edges of a pair do to their grid points.
-struct PairForce {
-	std::array<int, 4>  node;  ///< a0, a1, b0, b1
-	std::array<Vec2, 4> force; ///< [N]
+/// What a pair of edges does to a block, at the two grid points of its edge.
+struct SideForce {
+	std::array<int, 2>  node;
+	std::array<Vec2, 2> force; ///< [N]
 };
 
-/// Where the forces of a contact are: room for all its pairs, of which those that touch come first.
+/// Where the forces of a contact on a block are: room for all its pairs, of which those in work come first.
 struct ForceRange {
 	int first = 0, last = 0;
 };
@@ -177,14 +181,13 @@ struct FreeContacts {
 	std::vector<int> firstOfBlock, ofBlock; ///< block -> its contacts, sorted by the other block; empty without contacts
 	std::vector<int> blocksInContact;       ///< blocks that have any
 
-	// ---- forces of those pairs that touch
-	std::vector<PairForce>          forces;  ///< all of them
-	std::vector<ForceRange>         range;   ///< of each of `ofBlock`, so that a block finds its own side by side; both blocks of a contact have the same
-	std::vector<std::array<int, 2>> rangeOf; ///< contact -> where its two are
+	// ---- forces of those pairs that are in work, block by block
+	std::vector<SideForce>          forces;  ///< of all of them on either block; 0 where edges do not touch
+	std::vector<ForceRange>         range;   ///< of each of `ofBlock`
+	std::vector<std::array<int, 2>> rangeOf; ///< contact -> where its two are, that of its first block and that of its second
 
-	/// Those of a contact.
-	ForceRange forcesOf(int contact) const { return range[rangeOf[contact][0]]; }
-	void       setForcesOf(int contact, ForceRange r) { range[rangeOf[contact][0]] = range[rangeOf[contact][1]] = r; }
+	const ForceRange& rangeOn(int side, int contact) const { return range[rangeOf[contact][side]]; }
+	ForceRange&       rangeOn(int side, int contact) { return range[rangeOf[contact][side]]; }
 
 	// ---- shapes and corners, from the reference positions
 	JointCorners      corners;
@@ -228,6 +231,17 @@ void placeForces(BlockAssembly&);
 /// Has columns filled anew if somebody may have changed a contact since they were, with room for all pairs: nothing is allocated for them until the next
 /// change. The step asks for it.
 void followEdition(BlockAssembly&);
+
+/// work(pair, force on the first block) for the pairs of a contact that touched in the last step.
+template <class Work> void forEachTouching(const FreeContacts& f, const FreeContact& c, int contact, const Work& work)
+{
+	const ForceRange& range = f.rangeOn(0, contact);
+	for (int k = 0, at = range.first; at < range.last; ++k) {
+		if (c.rests[k].until != inWork) continue;
+		if (c.edges[k].touching) work(c.edges[k], f.forces[at]);
+		++at;
+	}
+}
 
 /// Computes again what is not saved; the next step looks for neighbours anew.
 void rebuildContacts(BlockAssembly&);

@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
+#include <blocks/kernel/Two.hpp>
 #include <blocks/kernel/laws/EdgeContactLaw.hpp>
 #include <blocks/kernel/step/ContactSearch.hpp>
 #include <blocks/kernel/step/Contacts.hpp>
@@ -31,17 +32,17 @@ namespace {
 	}
 
 	/// Where corners a1, b0, b1 have gone, as seen from a0 [m].
-	std::array<Vec2, 3> movesOf(const BlockAssembly& a, const EdgePair& e)
+	std::array<Vec2, 3> movesOf(const BlockAssembly& a, const std::array<int, 4>& node)
 	{
 		const Vec2* u = a.state.displacement.data();
-		const Vec2& o = u[e.node[0]];
-		return { u[e.node[1]] - o, u[e.node[2]] - o, u[e.node[3]] - o };
+		const Vec2& o = u[node[0]];
+		return { u[node[1]] - o, u[node[2]] - o, u[node[3]] - o };
 	}
 
 	/// What is left of the distance in which a pair surely does not touch [m].
-	Real leftOf(const BlockAssembly& a, const Rest& rest, const EdgePair& e)
+	Real leftOf(const BlockAssembly& a, const Rest& rest)
 	{
-		const std::array<Vec2, 3> now = movesOf(a, e);
+		const std::array<Vec2, 3> now = movesOf(a, rest.node);
 		const Real                ofB = std::max((now[1] - rest.from[1]).squaredNorm(), (now[2] - rest.from[2]).squaredNorm());
 		return rest.free - (now[0] - rest.from[0]).norm() - std::sqrt(ofB);
 	}
@@ -79,7 +80,12 @@ namespace {
 		{
 			EdgesInWork& work = a.contacts.inWork[run];
 			if (work.anew || work.steps >= stepsUnasked || !(a.contacts.odometer.most() < work.until)) ask(run, work);
-			advance(work);
+			work.apart = false;
+			for (EdgeColumns& c : work.batches) {
+				if (c.count == 0) break;
+				work.apart |= advance(c);
+			}
+			if (work.apart) ++work.steps;
 		}
 
 		/// One contact, whether it sleeps or not.
@@ -87,14 +93,13 @@ namespace {
 		{
 			FreeContact& c = a.state.contacts[contact]; // columns of the whole scene are not of this edition any more
 			EdgeColumns  some;
-			ask(c, pathsOf(a, c.block), true);
-			told = -1;
+			ask(c, c.rests.data(), int(c.rests.size()), pathsOf(a, c.block), true);
+			beginRanges(contact);
 			for (int k = 0; k < int(c.edges.size()); ++k) {
-				if (c.restUntil[k] == inWork) add(contact, k, some);
-				if (some.count == EdgeColumns::size) advance(some);
+				if (c.rests[k].until == inWork) add(contact, k, some);
+				if (some.count == EdgeColumns::size) advance(some), some.count = 0;
 			}
 			if (some.count > 0) advance(some);
-			leave();
 		}
 
 	private:
@@ -104,12 +109,6 @@ namespace {
 		const Real     dt;
 		EdgeBatch      batch;
 
-		template <class T> static void fetch(const T& what)
-		{
-			for (size_t line = 0; line < sizeof(T); line += 64)
-				__builtin_prefetch(reinterpret_cast<const char*>(&what) + line);
-		}
-
 		/// Asks those whose rest is over, and now and then those in work that do not touch. Where some begin or end their rest, columns are filled
 		/// anew.
 		void ask(int run, EdgesInWork& work)
@@ -118,24 +117,30 @@ namespace {
 			const int                          first = run * FreeContacts::run, last = std::min(int(f.order.size()), first + FreeContacts::run);
 			const bool                         all = work.steps >= stepsUnasked;
 			std::array<int, FreeContacts::run> asked; // places
-			int                                count = 0;
-			for (int place = first; place < last; ++place)
-				if (const Sleep& s = f.sleep[place]; work.anew || !(pathsOf(a, s.block).most < s.until) || (all && s.inWork > 0))
+			int                                count   = 0;
+			Real                               free    = std::numeric_limits<Real>::infinity(); // so far paths may go until somebody is asked again
+			bool                               changed = work.anew;
+			for (int place = first; place < last; ++place) {
+				const Sleep& s    = f.sleep[place];
+				const Real   most = pathsOf(a, s.block).most;
+				if (work.anew || !(most < s.until) || (all && s.inWork > 0))
 					asked[count++] = place;
-			bool changed = work.anew;
-			for (int i = -farAhead; i < count; ++i) { // contacts lie all over the memory: what comes soon is fetched early
-				if (i + farAhead < count) fetch(a.state.contacts.keepingEdition(f.order[asked[i + farAhead]]));
-				if (i + ahead >= 0 && i + ahead < count)
-					__builtin_prefetch(a.state.contacts.keepingEdition(f.order[asked[i + ahead]]).restUntil.data());
-				if (i < 0) continue;
-				FreeContact& c = a.state.contacts.keepingEdition(f.order[asked[i]]);
-				Sleep&       s = f.sleep[asked[i]];
-				if (ask(c, pathsOf(a, s.block), all)) changed = true, s.inWork = 1; // they are counted below
-				s.until = c.restUntil.empty() ? inWork : *std::min_element(c.restUntil.begin(), c.restUntil.end());
+				else
+					free = std::min(free, s.until - most);
 			}
-			Real free = std::numeric_limits<Real>::infinity();
-			for (int place = first; place < last; ++place)
-				free = std::min(free, f.sleep[place].until - pathsOf(a, f.sleep[place].block).most);
+			for (int i = -farAhead; i < count; ++i) { // rests lie all over the memory: what comes soon is fetched early
+				if (i + farAhead < count) fetch(f.sleep[asked[i + farAhead]]);
+				if (i + ahead >= 0 && i + ahead < count) fetchCorners(f.sleep[asked[i + ahead]]);
+				if (i < 0) continue;
+				Sleep&      s     = f.sleep[asked[i]];
+				const Paths paths = pathsOf(a, s.block);
+				if (ask(a.state.contacts.keepingEdition(f.order[asked[i]]), s.rests, s.pairs, paths, all))
+					changed = true, s.inWork = 1; // they are counted below
+				s.until = inWork;
+				for (int k = 0; k < s.pairs; ++k)
+					s.until = std::min(s.until, s.rests[k].until);
+				free = std::min(free, s.until - paths.most);
+			}
 			const Real now = f.odometer.most();
 			work.until     = std::isfinite(now) ? now + roundingShare * free : 0; // infinite where displacements were put somewhere
 			if (all) work.steps = 0;
@@ -147,15 +152,27 @@ namespace {
 			work.anew = false;
 		}
 
+		static void fetch(const Sleep& s)
+		{
+			for (int k = 0; k < s.pairs; ++k)
+				__builtin_prefetch(&s.rests[k]), __builtin_prefetch(&s.rests[k].from[2]);
+		}
+		void fetchCorners(const Sleep& s) const
+		{
+			for (int k = 0; k < s.pairs; ++k)
+				for (int node : s.rests[k].node)
+					__builtin_prefetch(&a.state.displacement[node]);
+		}
+
 		/// Those pairs of a contact whose rest is over, and if wanted those in work that do not touch. Whether some begin or end their rest.
-		bool ask(FreeContact& c, const Paths& path, bool all) const
+		bool ask(FreeContact& c, Rest* rests, int pairs, const Paths& path, bool all) const
 		{
 			bool changed = false;
-			for (int k = 0; k < int(c.edges.size()); ++k) {
-				Real& until = c.restUntil[k];
+			for (int k = 0; k < pairs; ++k) {
+				Real& until = rests[k].until;
 				if (path.most < until && !(all && until == inWork && !c.edges[k].touching)) continue;
 				const bool rested = until != inWork;
-				until             = restOf(c, k, path);
+				until             = restOf(c, k, rests[k], path);
 				changed |= rested != (until != inWork);
 			}
 			return changed;
@@ -166,25 +183,26 @@ namespace {
 		{
 			const FreeContact& c     = a.state.contacts.keepingEdition(contact);
 			int                count = 0;
+			beginRanges(contact);
 			for (int k = 0; k < int(c.edges.size()); ++k)
-				if (c.restUntil[k] == inWork) add(contact, k, roomIn(work)), ++count;
+				if (c.rests[k].until == inWork) add(contact, k, roomIn(work)), ++count;
 			return count;
 		}
 
 		/// Until where a pair surely does not touch, or inWork.
-		Real restOf(FreeContact& c, int pair, const Paths& path) const
+		Real restOf(const FreeContact& c, int pair, Rest& r, const Paths& path) const
 		{
-			Rest&           r = c.rests[pair];
-			const EdgePair& e = c.edges[pair];
 			if (r.free > 0)
-				if (const Real left = leftOf(a, r, e); left > 0) return path.least + left;
-			r.free = 0;
+				if (const Real left = leftOf(a, r); left > 0) return path.least + left;
+			r.free            = 0;
+			const EdgePair& e = c.edges[pair];
 			if (e.touching || e.area > 0) return inWork;
 			const Corners x = raisedCorners(a, e);
 			if (edgeDepths(x).touch() > 0 && edgeGeometry(points(x), e.shape).active()) return inWork;
 			r.free = distanceOf(points(x), e);
 			if (!(r.free > 0)) return inWork;
-			r.from = movesOf(a, e);
+			r.node = e.node;
+			r.from = movesOf(a, e.node);
 			return path.least + r.free;
 		}
 
@@ -206,14 +224,27 @@ namespace {
 			return work.batches.emplace_back();
 		}
 
+		/// Nothing of a contact is in columns yet.
+		void beginRanges(int contact) const
+		{
+			for (int side : { 0, 1 }) {
+				ForceRange& range = a.contacts.rangeOn(side, contact);
+				range.last        = range.first;
+			}
+		}
+
 		void add(int contact, int pair, EdgeColumns& b) const
 		{
-			const int          lane = b.count++;
-			const FreeContact& c    = a.state.contacts.keepingEdition(contact);
-			const EdgePair&    e    = c.edges[pair];
-			const Vec2*        X    = a.mesh.reference.data();
+			const int    lane = b.count++;
+			FreeContact& c    = a.state.contacts.keepingEdition(contact);
+			EdgePair&    e    = c.edges[pair];
+			const Vec2*  X    = a.mesh.reference.data();
 			if (lane == 0) b.raised = false;
-			b.contact[lane] = contact, b.pair[lane] = pair, b.node[lane] = e.node;
+			b.contact[lane] = &c, b.pair[lane] = &e, b.node[lane] = e.node, b.touched[lane] = -1;
+			for (int side : { 0, 1 }) {
+				b.side[lane][side]                           = a.contacts.rangeOn(side, contact).last++;
+				a.contacts.forces[b.side[lane][side]].node = { e.node[2 * side], e.node[2 * side + 1] };
+			}
 			for (int k : { 0, 1, 2 }) {
 				b.fromX[k][lane] = X[e.node[k + 1]].x() - X[e.node[0]].x();
 				b.fromY[k][lane] = X[e.node[k + 1]].y() - X[e.node[0]].y();
@@ -231,116 +262,73 @@ namespace {
 			b.raised       = b.raised || e.uplift != 0;
 		}
 
-		/// A step of all that is in work.
-		void advance(EdgesInWork& work)
+		/// A step of some columns. Whether there are pairs that do not touch.
+		bool advance(EdgeColumns& c)
 		{
-			work.apart = false;
-			told       = -1;
-			for (EdgeColumns& c : work.batches) {
-				if (c.count == 0) break;
-				gather(c);
-				advanceEdges(c, batch, a.thickness, dt);
-				work.apart |= tell(c);
-			}
-			leave();
-			if (work.apart) ++work.steps;
-		}
-		/// ... of some columns, which are empty after it.
-		void advance(EdgeColumns& some)
-		{
-			gather(some);
-			advanceEdges(some, batch, a.thickness, dt);
-			tell(some);
-			some.count = 0;
+			gather(c);
+			advanceEdges(c, batch, a.thickness, dt);
+			return tell(c);
 		}
 
 		/// Where the corners are and how fast they move.
 		void gather(const EdgeColumns& c)
 		{
 			const Vec2 *u = a.state.displacement.data(), *v = a.state.velocity.data();
-			for (int i = 0; i < c.count; ++i) {
-				const auto& node = c.node[i];
-				batch.px[0][i] = u[node[0]].x(), batch.py[0][i] = u[node[0]].y();
-				for (int k : { 0, 1, 2 })
-					batch.px[k + 1][i] = c.fromX[k][i] + u[node[k + 1]].x(), batch.py[k + 1][i] = c.fromY[k][i] + u[node[k + 1]].y();
-				for (int n = 0; n < 4; ++n)
-					batch.vx[n][i] = v[node[n]].x(), batch.vy[n][i] = v[node[n]].y();
-				__builtin_prefetch(&a.state.contacts.keepingEdition(c.contact[i]), 1);
+			for (int i = 0; i < c.count; i += 2) { // an odd last one is taken twice; the columns have room for it
+				const auto &node = c.node[i], &next = c.node[std::min(i + 1, c.count - 1)];
+				for (int n = 0; n < 4; ++n) {
+					const Two one = loadTwo(u[node[n]]), other = loadTwo(u[next[n]]), v1 = loadTwo(v[node[n]]), v2 = loadTwo(v[next[n]]);
+					const Two x = firsts(one, other), y = seconds(one, other);
+					store(batch.px[n] + i, n == 0 ? x : x + loadTwo(c.fromX[n - 1] + i));
+					store(batch.py[n] + i, n == 0 ? y : y + loadTwo(c.fromY[n - 1] + i));
+					store(batch.vx[n] + i, firsts(v1, v2)), store(batch.vy[n] + i, seconds(v1, v2));
+				}
 			}
-			if (c.raised) raise(c);
 			for (int i = 0; i < c.count; ++i)
-				fetch(a.state.contacts.keepingEdition(c.contact[i]).edges[c.pair[i]]);
+				__builtin_prefetch(c.contact[i], 1), __builtin_prefetch(c.pair[i], 1);
 		}
 
-		FourPoints cornersOf(int lane) const
-		{
-			FourPoints p;
-			for (int n = 0; n < 4; ++n)
-				p[n] = { batch.px[n][lane], batch.py[n][lane] };
-			return p;
-		}
-		void raise(const EdgeColumns& c)
-		{
-			for (int i = 0; i < c.count; ++i) {
-				if (c.uplift[i] == 0) continue;
-				const FourPoints p = raised(cornersOf(i), c.uplift[i]);
-				FourPoints       v;
-				for (int n = 0; n < 4; ++n)
-					v[n] = { batch.vx[n][i], batch.vy[n][i] };
-				v = raisedVelocity(p, c.uplift[i], v);
-				for (int n : { 0, 1 })
-					batch.px[n][i] = p[n].x(), batch.py[n][i] = p[n].y(), batch.vx[n][i] = v[n].x(), batch.vy[n][i] = v[n].y();
-			}
-		}
-
-		// ---- telling the pairs, contact by contact
-		int  told = -1, touching = 0; ///< contact that is being told, and how many of its pairs touch so far
-		bool othersTouch = false;     ///< whether others of its pairs touch than did
-
-		void leave()
-		{
-			if (told < 0) return;
-			const ForceRange was = a.contacts.forcesOf(told);
-			if (was.last != was.first + touching) a.contacts.setForcesOf(told, { was.first, was.first + touching });
-			FreeContact& c = a.state.contacts.keepingEdition(told);
-			if (!othersTouch && int(c.active.size()) == touching) return;
-			c.active.clear(); // its capacity is that of all pairs
-			for (int k = 0; k < int(c.edges.size()); ++k)
-				if (c.edges[k].touching) c.active.push_back(k);
-		}
-
-		/// Whether there are pairs that do not touch.
+		/// What came out, to the pairs and to where their blocks look for their forces. Whether there are pairs that do not touch.
 		bool tell(EdgeColumns& b)
 		{
 			bool apart = false;
 			for (int i = 0; i < b.count; ++i) {
-				FreeContact& c = a.state.contacts.keepingEdition(b.contact[i]);
-				EdgePair&    e = c.edges[b.pair[i]];
-				if (b.contact[i] != told) leave(), told = b.contact[i], touching = 0, othersTouch = false;
-				if (!(batch.touches[i] > 0)) {
+				const bool touches = batch.touches[i] > 0;
+				if (b.touched[i] != touches) meetOrPart(b, i, touches);
+				SideForce &first = a.contacts.forces[b.side[i][0]], &second = a.contacts.forces[b.side[i][1]];
+				if (!touches) {
 					apart     = true;
 					b.area[i] = b.slip[0][i] = b.slip[1][i] = 0;
-					if (e.touching || e.area > 0) { // they have parted
-						c.friction += shearEnergy(c, e);
-						e.slip = e.sigma = e.tau = { 0, 0 };
-						e.area                   = 0;
-						e.touching               = false;
-						othersTouch              = true;
-					}
+					first.force = second.force = { Vec2::Zero(), Vec2::Zero() };
 					continue;
 				}
-				if (!e.touching) e.touching = othersTouch = true;
-				for (int k : { 0, 1 })
+				EdgePair& e = *b.pair[i];
+				for (int k : { 0, 1 }) {
 					e.slip[k] = b.slip[k][i], e.sigma[k] = batch.sigma[k][i], e.tau[k] = batch.tau[k][i];
+					first.force[k]  = { batch.fx[k][i], batch.fy[k][i] };
+					second.force[k] = { batch.fx[k + 2][i], batch.fy[k + 2][i] };
+				}
 				e.area = b.area[i], e.potential = batch.potential[i];
-				c.friction += batch.friction[i];
-				PairForce& on = a.contacts.forces[a.contacts.forcesOf(told).first + touching++];
-				on.node       = b.node[i];
-				for (int n = 0; n < 4; ++n)
-					on.force[n] = { batch.fx[n][i], batch.fy[n][i] };
-				if (b.uplift[i] != 0) lowerForces(cornersOf(i), b.uplift[i], on.force);
+				b.contact[i]->friction += batch.friction[i];
 			}
 			return apart;
+		}
+
+		/// Two edges have met or parted, or nobody has looked yet whether they did.
+		static void meetOrPart(EdgeColumns& b, int lane, bool touches)
+		{
+			FreeContact& c = *b.contact[lane];
+			EdgePair&    e = *b.pair[lane];
+			if (!touches && (e.touching || e.area > 0)) {
+				c.friction += shearEnergy(c, e);
+				e.slip = e.sigma = e.tau = { 0, 0 };
+				e.area                   = 0;
+			}
+			e.touching      = touches;
+			b.touched[lane] = touches;
+			c.active.clear(); // its capacity is that of all pairs
+			for (int k = 0; k < int(c.edges.size()); ++k)
+				if (c.edges[k].touching) c.active.push_back(k);
 		}
 	};
 
@@ -387,10 +375,9 @@ void gatherContactForces(const BlockAssembly& a, int block, Vec2* force)
 	if (block + 1 >= int(f.firstOfBlock.size())) return; // it came after the last look for contacts
 	for (int i = f.firstOfBlock[block]; i < f.firstOfBlock[block + 1]; ++i)
 		for (int k = f.range[i].first; k < f.range[i].last; ++k) {
-			const PairForce& on    = f.forces[k];
-			const int        first = on.node[0] >= a.mesh.firstNode[block] && on.node[0] < a.mesh.firstNode[block + 1] ? 0 : 2;
-			force[on.node[first]] += on.force[first];
-			force[on.node[first + 1]] += on.force[first + 1];
+			const SideForce& on = f.forces[k];
+			force[on.node[0]] += on.force[0];
+			force[on.node[1]] += on.force[1];
 		}
 }
 
