@@ -31,7 +31,7 @@ struct EdgeColumns {
 	bool raised = false; ///< whether any uplift is not 0
 
 	// ---- from step to step
-	char             touched[size]; ///< whether it did, as the pair has it: 1, 0, or -1 where that is to be looked up
+	char touched[size]; ///< whether it did, as the pair has it: 1, 0, or -1 where that is to be looked up
 	alignas(64) Lane slip[2] {}, area {};
 };
 

@@ -126,7 +126,7 @@ void followEdition(BlockAssembly& a)
 {
 	FreeContacts& f = a.contacts;
 	if (f.columnsOf == a.state.contacts.edition()) return;
-	f.columnsOf          = a.state.contacts.edition();
+	f.columnsOf        = a.state.contacts.edition();
 	const int contacts = int(f.order.size());
 	f.inWork.resize((contacts + FreeContacts::run - 1) / FreeContacts::run);
 	for (int first = 0; first < contacts; first += FreeContacts::run) {

@@ -44,7 +44,7 @@ constexpr Real inWork = std::numeric_limits<Real>::infinity();
 struct Rest {
 	Real                until = 0; ///< it does not touch before the paths of the two blocks add up to this, or is inWork [m]
 	Real                free  = 0; ///< so close, the corners of A and those of B taken together; 0 where nothing is known [m]
-	std::array<int, 4>  node { };  ///< a0, a1, b0, b1
+	std::array<int, 4>  node {};   ///< a0, a1, b0, b1
 	std::array<Vec2, 3> from;      ///< displacements of a1, b0, b1 less that of a0 when `free` was measured; none while it is 0 [m]
 };
 

@@ -242,7 +242,7 @@ namespace {
 			if (lane == 0) b.raised = false;
 			b.contact[lane] = &c, b.pair[lane] = &e, b.node[lane] = e.node, b.touched[lane] = -1;
 			for (int side : { 0, 1 }) {
-				b.side[lane][side]                           = a.contacts.rangeOn(side, contact).last++;
+				b.side[lane][side]                         = a.contacts.rangeOn(side, contact).last++;
 				a.contacts.forces[b.side[lane][side]].node = { e.node[2 * side], e.node[2 * side + 1] };
 			}
 			for (int k : { 0, 1, 2 }) {

@@ -21,9 +21,9 @@ namespace {
 				force[n]           = { 0, 0 };
 				shape.sharpness[n] = c.sharpness[n][i];
 			});
-			shape.rounding    = { c.rounding[0][i], c.rounding[1][i] };
-			shape.farRounding = { c.farRounding[0][i], c.farRounding[1][i] };
-			shape.depthLimit  = c.depthLimit[i];
+			shape.rounding                       = { c.rounding[0][i], c.rounding[1][i] };
+			shape.farRounding                    = { c.farRounding[0][i], c.farRounding[1][i] };
+			shape.depthLimit                     = c.depthLimit[i];
 			[[maybe_unused]] const Real uplift   = anyRaised ? c.uplift[i] : 0;
 			[[maybe_unused]] const bool isRaised = uplift != 0;
 			if constexpr (anyRaised) {

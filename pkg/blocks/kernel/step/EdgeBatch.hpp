@@ -20,7 +20,8 @@ struct EdgeBatch {
 	alignas(64) Lane friction {}, potential {}; ///< dissipated in this step [J]; U per kn and thickness [m3]
 };
 
-/// Stresses and forces of all pairs of a batch, at their corners where edges are not raised, slips and areas of the columns; dt times the velocities is the last step's motion.
+/// Stresses and forces of all pairs of a batch, at their corners where edges are not raised, slips and areas of the columns; dt times the velocities is the
+/// last step's motion.
 void advanceEdges(EdgeColumns&, EdgeBatch&, Real thickness, Real dt);
 
 } // namespace blocks

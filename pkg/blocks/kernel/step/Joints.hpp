@@ -85,13 +85,13 @@ namespace step {
 	template <class Law> int beyondCaps(const Law&, const BlockAssembly&, int, int, const JointBatch&) { return 0; }
 	int                      beyondCaps(const Softening&, const BlockAssembly&, int first, int count, const JointBatch&);
 
-	/// Stresses of joints first, first + 1, ... from their openings and slips in the batch; states change where joints break or slide. Where intact points are
-	/// plainly elastic, only the others ask the law. Whether every contact point was intact and is.
+	/// Stresses of joints first, first + 1, ... from their openings and slips in the batch; states change where joints break or slide. Where intact points
+	/// are plainly elastic, only the others ask the law. Whether every contact point was intact and is.
 	template <class Law> bool advanceBatch(BlockAssembly& a, int first, int count, const Law& law, JointBatch& b)
 	{
-		State&        s           = a.state;
-		const Joint*  status      = s.status.data() + 2 * first;
-		[[maybe_unused]] bool yet = false; // whether points that are intact and not beyond a strength have their stresses
+		State&                s      = a.state;
+		const Joint*          status = s.status.data() + 2 * first;
+		[[maybe_unused]] bool yet    = false; // whether points that are intact and not beyond a strength have their stresses
 		if constexpr (IsPlainlyElastic<Law>::value) {
 			gatherProperties(a.joints, first, count, b);
 			int whole = 0;

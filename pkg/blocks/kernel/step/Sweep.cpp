@@ -103,9 +103,9 @@ void addJointForces(BlockAssembly& a, int batch, const JointForces& by)
 {
 	Vec2* const force = a.forces.nodal.data();
 	const int   first = batch * Joints::batch, count = jointsIn(a, batch);
-	const bool  all      = a.joints.kindOfBatch[batch] >= 0;
-	auto        carries  = [&](int i) { return all || a.joints.effective[first + i] != releasedKind; };
-	auto        addBoth  = [&](int i) { addSide(a, first + i, 0, by, i), addSide(a, first + i, 1, by, i); };
+	const bool  all     = a.joints.kindOfBatch[batch] >= 0;
+	auto        carries = [&](int i) { return all || a.joints.effective[first + i] != releasedKind; };
+	auto        addBoth = [&](int i) { addSide(a, first + i, 0, by, i), addSide(a, first + i, 1, by, i); };
 	for (int i = 0; i < count; i += 2) {
 		const bool one = carries(i), other = i + 1 < count && carries(i + 1);
 		if (one && other) {
