@@ -77,7 +77,7 @@ def measure(folder, threads, **wish):
 		COST=json.dumps(wish),
 		PYTHONPATH=str(folder / "py"),
 		YADEBLOCKS_PLUGIN=str(folder / "build/libyadeblocks.so"),
-		GOMP_SPINCOUNT="1000" # as scripts/run.sh
+		GOMP_SPINCOUNT="20000" # as scripts/run.sh
 	)
 	script = root / "out/cost/scene.py"
 	run = subprocess.run(["yade", "-n", "-x", "-j", str(threads), str(script)], env=environment, capture_output=True, text=True)

@@ -37,7 +37,8 @@ done
 more="$(sed -n 's/^# needs: //p' "scripts/$name.py")" # Debian packages that only this scenario wants
 scripts/setup.sh --brief $more
 
-# threads that wait for each other spin for a moment, a few microseconds, and sleep then: on a busy machine they must not eat the time of those that work
-export GOMP_SPINCOUNT=1000 PYTHONPATH="$PWD/py${PYTHONPATH:+:$PYTHONPATH}"
+# threads that wait for each other spin for some 50 microseconds, longer than what lies between two steps, and sleep then: on a busy machine they must not
+# eat the time of those that work
+export GOMP_SPINCOUNT=20000 PYTHONPATH="$PWD/py${PYTHONPATH:+:$PYTHONPATH}"
 [ -v HOME ] || export HOME=~ # YADE does not start without
 exec yade -n -x -j "$threads" "scripts/$name.py" "$@" # signals reach YADE itself
