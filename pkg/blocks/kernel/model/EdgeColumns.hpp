@@ -18,6 +18,7 @@ struct EdgeColumns {
 	using Lane                = Real[size];
 
 	int                count = 0;
+	int                place[size]; ///< of its contact in FreeContacts::order
 	FreeContact*       contact[size];
 	EdgePair*          pair[size];
 	std::array<int, 4> node[size]; ///< grid points of the corners

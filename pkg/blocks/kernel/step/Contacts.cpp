@@ -20,6 +20,10 @@ namespace {
 	/// Pairs in work that do not touch are asked every so many steps whether they can rest. No result depends on it.
 	constexpr int stepsUnasked = 16;
 
+	/// In place of Rest::until: the pair is in work, and to be asked whether it can rest.
+	constexpr Real inWorkButAsked = -inWork;
+	bool           isResting(Real until) { return std::isfinite(until); }
+
 	/// What the paths of two blocks add up to, at least and at most: they may have gone on since they were brought up to date [m].
 	struct Paths {
 		Real least, most;
@@ -93,10 +97,12 @@ namespace {
 		{
 			FreeContact& c = a.state.contacts[contact]; // columns of the whole scene are not of this edition any more
 			EdgeColumns  some;
-			ask(c, c.rests.data(), int(c.rests.size()), pathsOf(a, c.block), true);
+			for (size_t k = 0; k < c.edges.size(); ++k)
+				if (c.rests[k].until == inWork && !c.edges[k].touching) c.rests[k].until = inWorkButAsked;
+			ask(c, c.rests.data(), int(c.rests.size()), pathsOf(a, c.block));
 			beginRanges(contact);
 			for (int k = 0; k < int(c.edges.size()); ++k) {
-				if (c.rests[k].until == inWork) add(contact, k, some);
+				if (c.rests[k].until == inWork) add(contact, -1, k, some);
 				if (some.count == EdgeColumns::size) advance(some), some.count = 0;
 			}
 			if (some.count > 0) advance(some);
@@ -113,9 +119,9 @@ namespace {
 		/// anew.
 		void ask(int run, EdgesInWork& work)
 		{
-			FreeContacts&                      f     = a.contacts;
-			const int                          first = run * FreeContacts::run, last = std::min(int(f.order.size()), first + FreeContacts::run);
-			const bool                         all = work.steps >= stepsUnasked;
+			FreeContacts& f     = a.contacts;
+			const int     first = run * FreeContacts::run, last = std::min(int(f.order.size()), first + FreeContacts::run);
+			if (work.steps >= stepsUnasked && !work.anew) askApart(work);
 			std::array<int, FreeContacts::run> asked; // places
 			int                                count   = 0;
 			Real                               free    = std::numeric_limits<Real>::infinity(); // so far paths may go until somebody is asked again
@@ -123,7 +129,7 @@ namespace {
 			for (int place = first; place < last; ++place) {
 				const Sleep& s    = f.sleep[place];
 				const Real   most = pathsOf(a, s.block).most;
-				if (work.anew || !(most < s.until) || (all && s.inWork > 0))
+				if (work.anew || !(most < s.until))
 					asked[count++] = place;
 				else
 					free = std::min(free, s.until - most);
@@ -134,7 +140,7 @@ namespace {
 				if (i < 0) continue;
 				Sleep&      s     = f.sleep[asked[i]];
 				const Paths paths = pathsOf(a, s.block);
-				if (ask(a.state.contacts.keepingEdition(f.order[asked[i]]), s.rests, s.pairs, paths, all))
+				if (ask(a.state.contacts.keepingEdition(f.order[asked[i]]), s.rests, s.pairs, paths))
 					changed = true, s.inWork = 1; // they are counted below
 				s.until = inWork;
 				for (int k = 0; k < s.pairs; ++k)
@@ -143,12 +149,11 @@ namespace {
 			}
 			const Real now = f.odometer.most();
 			work.until     = std::isfinite(now) ? now + roundingShare * free : 0; // infinite where displacements were put somewhere
-			if (all) work.steps = 0;
 			if (!changed) return;
 			for (EdgeColumns& c : work.batches)
 				c.count = 0;
 			for (int place = first; place < last; ++place)
-				if (work.anew || f.sleep[place].inWork > 0) f.sleep[place].inWork = fill(f.order[place], work);
+				if (work.anew || f.sleep[place].inWork > 0) f.sleep[place].inWork = fill(place, work);
 			work.anew = false;
 		}
 
@@ -164,28 +169,41 @@ namespace {
 					__builtin_prefetch(&a.state.displacement[node]);
 		}
 
-		/// Those pairs of a contact whose rest is over, and if wanted those in work that do not touch. Whether some begin or end their rest.
-		bool ask(FreeContact& c, Rest* rests, int pairs, const Paths& path, bool all) const
+		/// Those in work that do not touch are to be asked.
+		void askApart(EdgesInWork& work)
+		{
+			work.steps = 0;
+			for (const EdgeColumns& c : work.batches)
+				for (int i = 0; i < c.count; ++i) {
+					if (c.touched[i] != 0) continue;
+					c.contact[i]->rests[c.pair[i] - c.contact[i]->edges.data()].until = inWorkButAsked;
+					a.contacts.sleep[c.place[i]].until                                = inWorkButAsked;
+				}
+		}
+
+		/// Those pairs of a contact whose rest is over. Whether some begin or end their rest.
+		bool ask(FreeContact& c, Rest* rests, int pairs, const Paths& path) const
 		{
 			bool changed = false;
 			for (int k = 0; k < pairs; ++k) {
 				Real& until = rests[k].until;
-				if (path.most < until && !(all && until == inWork && !c.edges[k].touching)) continue;
-				const bool rested = until != inWork;
+				if (path.most < until) continue;
+				const bool rested = isResting(until);
 				until             = restOf(c, k, rests[k], path);
-				changed |= rested != (until != inWork);
+				changed |= rested != isResting(until);
 			}
 			return changed;
 		}
 
 		/// Puts those pairs of a contact that are in work into columns. How many they are.
-		int fill(int contact, EdgesInWork& work) const
+		int fill(int place, EdgesInWork& work) const
 		{
-			const FreeContact& c     = a.state.contacts.keepingEdition(contact);
-			int                count = 0;
+			const int          contact = a.contacts.order[place];
+			const FreeContact& c       = a.state.contacts.keepingEdition(contact);
+			int                count   = 0;
 			beginRanges(contact);
 			for (int k = 0; k < int(c.edges.size()); ++k)
-				if (c.rests[k].until == inWork) add(contact, k, roomIn(work)), ++count;
+				if (c.rests[k].until == inWork) add(contact, place, k, roomIn(work)), ++count;
 			return count;
 		}
 
@@ -233,14 +251,15 @@ namespace {
 			}
 		}
 
-		void add(int contact, int pair, EdgeColumns& b) const
+		/// place: of the contact, in FreeContacts::order.
+		void add(int contact, int place, int pair, EdgeColumns& b) const
 		{
 			const int    lane = b.count++;
 			FreeContact& c    = a.state.contacts.keepingEdition(contact);
 			EdgePair&    e    = c.edges[pair];
 			const Vec2*  X    = a.mesh.reference.data();
 			if (lane == 0) b.raised = false;
-			b.contact[lane] = &c, b.pair[lane] = &e, b.node[lane] = e.node, b.touched[lane] = -1;
+			b.place[lane] = place, b.contact[lane] = &c, b.pair[lane] = &e, b.node[lane] = e.node, b.touched[lane] = -1;
 			for (int side : { 0, 1 }) {
 				b.side[lane][side]                         = a.contacts.rangeOn(side, contact).last++;
 				a.contacts.forces[b.side[lane][side]].node = { e.node[2 * side], e.node[2 * side + 1] };
