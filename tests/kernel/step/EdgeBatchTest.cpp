@@ -38,7 +38,9 @@ struct Single {
 			p[n] = { b.px[n][i], b.py[n][i] }, v[n] = { b.vx[n][i], b.vy[n][i] }, shape.sharpness[n] = b.sharpness[n][i];
 		for (int k : { 0, 1 })
 			shape.rounding[k] = b.rounding[k][i], shape.farRounding[k] = b.farRounding[k][i];
-		shape.depthLimit     = b.depthLimit[i];
+		shape.depthLimit  = b.depthLimit[i];
+		const Real uplift = b.uplift[i];
+		if (uplift != 0) p = raised(p, uplift), v = raisedVelocity(p, uplift, v);
 		const EdgeGeometry g = edgeGeometry(p, shape);
 		touches              = g.active();
 		area                 = thickness * g.area;
@@ -65,13 +67,14 @@ struct Single {
 			friction += work + before - b.ks[i] * area * slip[k] * slip[k] / 2;
 			sigma[k] = -pressure, tau[k] = b.ks[i] * slip[k];
 		}
+		if (uplift != 0) lowerForces(p, uplift, force);
 	}
 };
 
-/// Edges of length 0.4 to 1.4 that mostly overlap, with some slip that they remember.
-void fill(Batch& b, int count, Dice& dice)
+/// Edges of length 0.4 to 1.4 that mostly overlap, with some slip that they remember. If wanted, half of them are raised or lowered.
+void fill(Batch& b, int count, bool raised, Dice& dice)
 {
-	b.count = count;
+	b.count = count, b.raised = raised;
 	for (int i = 0; i < count; ++i) {
 		const Real angle = dice(0, 2 * M_PI), tilt = dice(0, 1) < 0.3 ? 0 : dice(-1, 1);
 		const Vec2 eA(std::cos(angle), std::sin(angle)), eB(-std::cos(angle + tilt), -std::sin(angle + tilt));
@@ -87,6 +90,7 @@ void fill(Batch& b, int count, Dice& dice)
 			b.rounding[k][i] = dice(0.003, 0.03), b.farRounding[k][i] = dice(0.003, 0.03), b.slip[k][i] = dice(-0.02, 0.02);
 		b.depthLimit[i] = dice(0.1, 0.4), b.area[i] = dice(0, 1) < 0.2 ? 0 : dice(0, 1);
 		b.kn[i] = dice(1, 10), b.ks[i] = dice(1, 10), b.cohesion[i] = dice(0, 1) < 0.5 ? 0 : dice(0, 0.1), b.tanPhi[i] = dice(0, 1);
+		b.uplift[i] = raised && dice(0, 1) < 0.5 ? dice(-0.02, 0.02) : 0;
 	}
 }
 
@@ -95,10 +99,10 @@ void fill(Batch& b, int count, Dice& dice)
 TEST(EdgeBatch, LanesAgreeWithSinglePairsToTheBit)
 {
 	Dice dice;
-	int  touching = 0, sliding = 0;
+	int  touching = 0, sliding = 0, raised = 0;
 	auto batch = std::make_unique<Batch>();
 	for (int round = 0; round < 400; ++round) {
-		fill(*batch, 1 + round % Batch::size, dice);
+		fill(*batch, 1 + round % Batch::size, round % 2 == 0, dice);
 		std::vector<Single> expected;
 		for (int i = 0; i < batch->count; ++i)
 			expected.emplace_back(*batch, i);
@@ -107,7 +111,7 @@ TEST(EdgeBatch, LanesAgreeWithSinglePairsToTheBit)
 			const Single& one = expected[i];
 			ASSERT_EQ(batch->touches[i] > 0, one.touches) << round << ", " << i;
 			if (!one.touches) continue;
-			++touching;
+			++touching, raised += batch->uplift[i] != 0;
 			for (int k : { 0, 1 }) {
 				ASSERT_EQ(batch->slip[k][i], one.slip[k]) << round << ", " << i;
 				ASSERT_EQ(batch->sigma[k][i], one.sigma[k]) << round << ", " << i;
@@ -125,5 +129,6 @@ TEST(EdgeBatch, LanesAgreeWithSinglePairsToTheBit)
 		}
 	}
 	EXPECT_GT(touching, 1500);
+	EXPECT_GT(raised, 300);
 	EXPECT_GT(sliding, 300);
 }

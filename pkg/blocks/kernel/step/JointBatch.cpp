@@ -103,16 +103,18 @@ void loadEdges(const JointColumns& columns, int first, int count, JointBatch& b)
 	(columns.matched[first / Joints::batch] ? loadMatched : loadAny)(columns, first, count, b);
 }
 
-WIDE int elasticStresses(int count, JointBatch& b)
+WIDE void elasticStresses(int count, JointBatch& b)
 {
-	std::int64_t broken = 0;
+	std::int64_t sum = 0;
 #pragma GCC ivdep
-	for (int i = 0; i < count; ++i)
-		for (int k = 0; k < 2; ++k) {
+	for (int i = 0; i < count; ++i) {
+		for (int k = 0; k < 2; ++k)
 			b.sigma[k][i] = b.kn[i] * b.opening[k][i], b.tau[k][i] = b.ks[i] * b.slip[k][i];
-			broken += beyond(b, i, k);
-		}
-	return int(broken);
+		const std::int64_t points = isBeyond(b, i, 0) + isBeyond(b, i, 1);
+		b.beyond[i]               = points;
+		sum += points;
+	}
+	b.pointsBeyond = sum;
 }
 
 WIDE Real elasticEnergy(const JointColumns& columns, int first, int count, const JointBatch& b)

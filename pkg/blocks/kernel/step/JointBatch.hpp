@@ -20,7 +20,10 @@ struct JointBatch {
 	alignas(64) Lane dn[2], dt[2];               ///< x2 - x1 in the frame [m]
 	alignas(64) Lane opening[2], slip[2];        ///< [m]
 	// ---- stresses
-	alignas(64) Lane sigma[2], tau[2]; ///< [Pa]
+	alignas(64) Lane sigma[2], tau[2];      ///< [Pa]
+	alignas(64) std::int64_t beyond[size];  ///< contact points beyond a strength
+	std::int64_t pointsBeyond = 0;          ///< ... in all lanes
+	int          asks[size], asking = 0;    ///< lanes that ask the law, and how many
 	JointForces force;
 };
 
@@ -30,11 +33,11 @@ void gatherDisplacements(const BlockAssembly&, int first, int count, JointBatch&
 /// Frame, opening and slip of joints first, first + 1, ...
 void moveJoints(const JointColumns&, int first, int count, JointBatch&);
 
-/// Stresses as long as nothing breaks, for joints that have no slip and no uplift; how many contact points this takes beyond a strength.
-int elasticStresses(int count, JointBatch&);
+/// Stresses as long as nothing breaks, for joints that have no slip and no uplift, and which this takes beyond a strength.
+void elasticStresses(int count, JointBatch&);
 
 /// Whether the elastic stresses of a contact point are beyond its strength.
-inline bool beyond(const JointBatch& b, int joint, int k)
+inline bool isBeyond(const JointBatch& b, int joint, int k)
 {
 	return (b.sigma[k][joint] > b.tension[joint]) | (std::abs(b.tau[k][joint]) > b.cohesion[joint] - b.sigma[k][joint] * b.tanPhi[joint]);
 }

@@ -93,6 +93,30 @@ namespace step {
 		}
 	}
 
+	bool listAsking(const BlockAssembly& a, int first, int count, bool all, JointBatch& b)
+	{
+		const int*   kind   = a.joints.effective.data() + first;
+		const Joint* status = a.state.status.data() + 2 * first;
+		std::uint8_t broken = 0;
+		for (int p = 0; p < 2 * count; ++p)
+			broken |= std::uint8_t(status[p]); // intact is 0
+		b.asking = 0;
+		if (broken == 0 && b.pointsBeyond == 0 && !all) return true;
+		int released[JointBatch::size], gone = 0, asking = 0;
+		for (int i = 0; i < count; ++i) { // without branches, which nobody could foretell
+			const int isReleased = kind[i] == releasedKind;
+			const int points     = std::uint8_t(status[2 * i]) | std::uint8_t(status[2 * i + 1]) | int(b.beyond[i]) | int(all);
+			released[gone] = b.asks[asking] = i;
+			gone += isReleased;
+			asking += (points != 0) & (isReleased ^ 1);
+		}
+		b.asking = asking;
+		for (int n = 0; n < gone; ++n)
+			for (int k : { 0, 1 })
+				b.sigma[k][released[n]] = b.tau[k][released[n]] = 0;
+		return false;
+	}
+
 	void storeMotion(BlockAssembly& a, int first, int count, const JointBatch& b)
 	{
 		interleave(count, b.opening[0], b.opening[1], a.state.opening.data() + 2 * first);

@@ -85,6 +85,10 @@ namespace step {
 	template <class Law> int beyondCaps(const Law&, const BlockAssembly&, int, int, const JointBatch&) { return 0; }
 	int                      beyondCaps(const Softening&, const BlockAssembly&, int first, int count, const JointBatch&);
 
+	/// Lists those joints of a batch that ask the law: all that are not released, or of these only those with a point that is not intact or beyond a strength.
+	/// What is released carries nothing. Whether every contact point is intact and none asks.
+	bool listAsking(const BlockAssembly&, int first, int count, bool all, JointBatch&);
+
 	/// Stresses of joints first, first + 1, ... from their openings and slips in the batch; states change where joints break or slide. Where intact points
 	/// are plainly elastic, only the others ask the law. Whether every contact point was intact and is.
 	template <class Law> bool advanceBatch(BlockAssembly& a, int first, int count, const Law& law, JointBatch& b)
@@ -94,33 +98,21 @@ namespace step {
 		[[maybe_unused]] bool yet    = false; // whether points that are intact and not beyond a strength have their stresses
 		if constexpr (IsPlainlyElastic<Law>::value) {
 			gatherProperties(a.joints, first, count, b);
-			int whole = 0;
-			for (int p = 0; p < 2 * count; ++p)
-				whole += status[p] == Joint::intact;
-			const int beyond = elasticStresses(count, b);
-			yet              = beyondCaps(law, a, first, count, b) == 0;
-			if (yet && beyond == 0 && whole == 2 * count) return true;
+			elasticStresses(count, b);
+			yet = beyondCaps(law, a, first, count, b) == 0;
 		}
-		for (int i = 0; i < count; ++i) {
-			if (a.joints.effective[first + i] == releasedKind) {
-				for (int k : { 0, 1 })
-					b.sigma[k][i] = b.tau[k][i] = 0;
-				continue;
-			}
-			for (int k : { 0, 1 }) {
+		if (listAsking(a, first, count, !yet, b)) return true;
+		for (int n = 0; n < b.asking; ++n)
+			for (int i = b.asks[n], k = 0; k < 2; ++k) {
 				const int p = 2 * (first + i) + k;
-				if (yet && status[2 * i + k] == Joint::intact && !beyond(b, i, k)) continue;
+				if (yet && status[2 * i + k] == Joint::intact && !isBeyond(b, i, k)) continue;
 				const JointStep now = advancePoint(law, a, p, b.opening[k][i], b.slip[k][i]);
 				b.sigma[k][i]       = now.sigma;
 				b.tau[k][i]         = now.tau;
-				if (now.state.status != s.status[p])
-					__atomic_store_n(
-						&a.forces.broke[first / Joints::batch],
-						char(true),
-						__ATOMIC_RELAXED); // pairs of one batch may come from several threads
+				if (now.state.status != s.status[p]) // pairs of one batch may come from several threads
+					__atomic_store_n(&a.forces.broke[first / Joints::batch], char(true), __ATOMIC_RELAXED);
 				s.setJoint(p, now.state);
 			}
-		}
 		return false;
 	}
 
