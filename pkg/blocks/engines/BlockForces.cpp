@@ -32,7 +32,7 @@ void BlockForces::lookAtEngines(BlockModel& model)
 	const bool look = !looked || scene->iter % askPeriod == 0, rigid = !model.assembly.state.rigid.empty();
 	if (look) {
 		requireEngines(scene, model, stepsJoints());
-		requireUntouched(scene, model);
+		requireUntouched(scene, model, threadsFor(model, ompThreads));
 	}
 	if (!look && !rigid) return;
 	noteFreedom(scene, model);
@@ -52,7 +52,7 @@ void BlockForces::lookAtEngines(BlockModel& model)
 
 void BlockForces::step(BlockModel& model)
 {
-	model.requireBodies(scene);
+	model.requireBodies(scene, threadsFor(model, ompThreads));
 	lookAtEngines(model);
 	computeForces(model, threadsFor(model, ompThreads));
 	blocks::BlockAssembly& a = model.assembly;

@@ -114,7 +114,7 @@ void BlockIntegrator::watchStability(BlockModel& model)
 	const auto verdict = watch.look(model.assembly, step, scene->time, scene->dt);
 	if (!verdict.warning.empty()) LOG_WARN("step " << step << ": " << verdict.warning);
 	if (verdict.stable) {
-		model.writeCentroids(scene);
+		model.writeCentroids(scene, threadsFor(model, ompThreads));
 		return;
 	}
 
@@ -133,7 +133,7 @@ void BlockIntegrator::stop(BlockModel& model, const blocks::StabilityWatch::Verd
 	const long good    = watch.restore(model.assembly);
 	if (good >= 0) {
 		restoreRigidBodies(scene, model);
-		model.writeCentroids(scene);
+		model.writeCentroids(scene, threadsFor(model, ompThreads));
 		model.stiffnessChanged();
 		showContacts(scene, model); // they were those of a state that is no more
 		scene->iter = good;

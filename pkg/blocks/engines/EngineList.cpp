@@ -3,6 +3,7 @@
 #include <blocks/engines/BlockForces.hpp>
 #include <blocks/engines/BlockIntegrator.hpp>
 #include <blocks/engines/EngineList.hpp>
+#include <blocks/kernel/Parallel.hpp>
 #include <blocks/views/BlockGeom.hpp>
 #include <blocks/views/Materials.hpp>
 #include <core/Body.hpp>
@@ -119,11 +120,12 @@ void requireEngines(const Scene* scene, const BlockModel& model, bool flat)
 	}
 }
 
-void requireUntouched(const Scene* scene, const BlockModel& model)
+void requireUntouched(const Scene* scene, const BlockModel& model, int threads)
 {
 	const_cast<Scene*>(scene)->forces.sync();
-	for (int i = 0; i < model.assembly.blockCount(); ++i)
+	blocks::forEachInParallel(model.assembly.blockCount(), threads, [&](int i) {
 		if (!model.assembly.isRemoved(i)) requireBody(scene, model, i);
+	});
 	requireJoints(model);
 	requireInteractions(scene, model);
 }

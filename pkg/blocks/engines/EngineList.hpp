@@ -9,7 +9,7 @@ namespace yade {
 void requireEngines(const Scene*, const BlockModel&, bool flat);
 
 /// Refuses bodies, materials, joints and forces that were changed behind the model's back.
-void requireUntouched(const Scene*, const BlockModel&);
+void requireUntouched(const Scene*, const BlockModel&, int threads);
 
 /// What is no error, but not what one would expect; empty if there is nothing.
 string remarks(const Scene*, const BlockModel&);

@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
+#include <blocks/kernel/Parallel.hpp>
 #include <blocks/kernel/geometry/Polygon.hpp>
 #include <blocks/kernel/model/ContactDetection.hpp>
 #include <blocks/kernel/step/TimeStep.hpp>
@@ -204,23 +205,25 @@ void BlockModel::requireProperties()
 	propertiesKnown = version;
 }
 
-void BlockModel::requireBodies(const Scene* scene) const
+void BlockModel::requireBodies(const Scene* scene, int threads) const
 {
 	const auto& bodies = scene->bodies->body;
-	for (int id = firstBody; id < firstBody + assembly.blockCount(); ++id)
-		if ((size_t(id) >= bodies.size() || !bodies[id]) && !assembly.isRemoved(id - firstBody))
+	blocks::forEachInParallel(assembly.blockCount(), threads, [&](int i) {
+		const size_t id = firstBody + i;
+		if ((id >= bodies.size() || !bodies[id]) && !assembly.isRemoved(i))
 			throw std::runtime_error(
 				"body " + std::to_string(id) + " was erased, but blocks cannot leave their model; BlockModel.remove takes them out of it");
+	});
 }
 
-void BlockModel::writeCentroids(Scene* scene)
+void BlockModel::writeCentroids(Scene* scene, int threads)
 {
-	for (int i = 0; i < assembly.blockCount(); ++i) {
-		if (assembly.isRigid(i) || assembly.isRemoved(i)) continue; // it was the body that moved, or there is none
+	blocks::forEachInParallel(assembly.blockCount(), threads, [&](int i) {
+		if (assembly.isRigid(i) || assembly.isRemoved(i)) return; // it was the body that moved, or there is none
 		const auto&        body     = (*scene->bodies)[firstBody + i];
 		const blocks::Vec2 centroid = assembly.centroid(i);
 		body->state->pos            = Vector3r(centroid.x(), centroid.y(), 0);
-	}
+	});
 }
 
 /// Tells which blocks touch, or nearly, and have no joint.

@@ -69,10 +69,10 @@ public:
 	void requireProperties();
 
 	/// Refuses a scene from which blocks have been erased.
-	void requireBodies(const Scene*) const;
+	void requireBodies(const Scene*, int threads) const;
 
 	/// Centroids of deformable blocks -> state.pos of their bodies, for engines of YADE that look there; Python asks BlockState.
-	void writeCentroids(Scene*);
+	void writeCentroids(Scene*, int threads);
 
 	/// One Body per block and one Interaction per pair, into the present scene.
 	void insert(bool interactions);

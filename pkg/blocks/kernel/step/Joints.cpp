@@ -1,7 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
+#include <blocks/kernel/Parallel.hpp>
 #include <blocks/kernel/Wide.hpp>
 #include <blocks/kernel/step/Joints.hpp>
-#include <exception>
 #include <limits>
 
 namespace blocks {
@@ -50,25 +50,17 @@ void updateKinematics(BlockAssembly& a, JointRange range)
 	});
 }
 
-void advanceByRanges(BlockAssembly& a, const JointLawOnRange& law, bool account, [[maybe_unused]] int threads)
+void advanceByRanges(BlockAssembly& a, const JointLawOnRange& law, bool account, int threads)
 {
 	if (account) a.forces.before.take(a.state);
-	const int          parts = law.serial() ? 1 : threads;
-	std::exception_ptr failed; // none may leave a parallel region
-#pragma omp parallel for schedule(static) num_threads(parts) if (parts > 1)
-	for (int part = 0; part < parts; ++part) {
+	const int parts = law.serial() ? 1 : threads;
+	forEachInParallel(parts, parts, [&](int part) {
 		const int        batches = int(a.forces.broke.size());
 		auto             begin   = [&](int p) { return std::min(a.joints.count(), int(long(batches) * p / parts) * Joints::batch); };
 		const JointRange range { begin(part), part + 1 == parts ? a.joints.count() : begin(part + 1) };
-		try {
-			updateKinematics(a, range);
-			law.advance(a, range);
-		} catch (...) {
-#pragma omp critical(blocksLawFailed)
-			failed = std::current_exception();
-		}
-	}
-	if (failed) std::rethrow_exception(failed);
+		updateKinematics(a, range);
+		law.advance(a, range);
+	});
 	for (auto& broke : a.forces.broke)
 		broke = true; // the law does not say which
 	if (account) bookDissipation(a, a.forces.before);

@@ -85,8 +85,8 @@ namespace step {
 	template <class Law> int beyondCaps(const Law&, const BlockAssembly&, int, int, const JointBatch&) { return 0; }
 	int                      beyondCaps(const Softening&, const BlockAssembly&, int first, int count, const JointBatch&);
 
-	/// Lists those joints of a batch that ask the law: all that are not released, or of these only those with a point that is not intact or beyond a strength.
-	/// What is released carries nothing. Whether every contact point is intact and none asks.
+	/// Lists those joints of a batch that ask the law: all that are not released, or of these only those with a point that is not intact or beyond a
+	/// strength. What is released carries nothing. Whether every contact point is intact and none asks.
 	bool listAsking(const BlockAssembly&, int first, int count, bool all, JointBatch&);
 
 	/// Stresses of joints first, first + 1, ... from their openings and slips in the batch; states change where joints break or slide. Where intact points
