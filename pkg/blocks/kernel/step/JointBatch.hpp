@@ -20,10 +20,10 @@ struct JointBatch {
 	alignas(64) Lane dn[2], dt[2];               ///< x2 - x1 in the frame [m]
 	alignas(64) Lane opening[2], slip[2];        ///< [m]
 	// ---- stresses
-	alignas(64) Lane sigma[2], tau[2];     ///< [Pa]
-	alignas(64) std::int64_t beyond[size]; ///< contact points beyond a strength
-	std::int64_t pointsBeyond = 0;         ///< ... in all lanes
-	int          asks[size], asking = 0;   ///< lanes that ask the law, and how many
+	alignas(64) Lane sigma[2], tau[2];        ///< [Pa]
+	alignas(64) std::int64_t beyond[size] {}; ///< contact points beyond a strength
+	std::int64_t pointsBeyond = 0;            ///< ... in all lanes
+	int          asks[size], asking = 0;      ///< lanes that ask the law, and how many
 	JointForces  force;
 };
 
