@@ -135,7 +135,7 @@ void BlockIntegrator::stop(BlockModel& model, const blocks::StabilityWatch::Verd
 		restoreRigidBodies(scene, model);
 		model.writeCentroids(scene, threadsFor(model, ompThreads));
 		model.stiffnessChanged();
-		showContacts(scene, model); // they were those of a state that is no more
+		showAllContacts(scene, model); // they were those of a state that is no more
 		scene->iter = good;
 		movedAt = model.forcesAt = -1; // between two steps
 		scene->time              = watch.goodTime();

@@ -45,7 +45,7 @@ void BlockContacts::step(BlockModel& model)
 	started    = true;
 	bodiesSeen = scene->bodies->size();
 	blocks::prepareContacts(a, scene->dt, scene->trackEnergy);
-	showContacts(scene, model);
+	showAllContacts(scene, model); // YADE erases what it takes for no interaction any more
 	colliderRuns = a.contacts.looks;
 }
 

@@ -30,11 +30,13 @@ py::tuple BlockGeom::points() const
 py::list BlockGeom::ends() const
 {
 	py::list list;
-	if (!model || contact < 0 || contact >= int(model->assembly.state.contacts.size())) return list;
-	const auto& free = model->assembly.state.contacts[contact];
+	if (!model) return list;
+	const blocks::BlockAssembly& a = model->assembly; // looking makes no new edition of the contacts
+	if (contact < 0 || contact >= int(a.state.contacts.size())) return list;
+	const auto& free = a.state.contacts[contact];
 	for (int active = 0; active < int(free.active.size()); ++active)
 		for (int k : { 0, 1 }) {
-			const auto end = blocks::contactEnd(model->assembly, free, active, k);
+			const auto end = blocks::contactEnd(a, free, active, k);
 			py::dict   entry;
 			entry["position"] = Vector2r(end.position);
 			entry["normal"]   = Vector2r(end.normal);

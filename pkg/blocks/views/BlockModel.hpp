@@ -39,6 +39,8 @@ public:
 
 	/// Version of the contacts that O.interactions shows.
 	long shownContacts = 0;
+	/// Blocks of the contacts that it shows, by the contacts' places in the state; { -1, -1 }: none.
+	vector<std::array<int, 2>> shownBlocks;
 
 	/// Damping of the NewtonIntegrator that moves rigid blocks, as the engines know it [-].
 	Real newtonDamping = 0;

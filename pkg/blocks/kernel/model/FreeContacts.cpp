@@ -60,25 +60,37 @@ Real meanEdge(const BlockAssembly& a, int block)
 
 void sortContacts(BlockAssembly& a)
 {
-	FreeContacts& f = a.contacts;
-	f.order.clear();
-	for (int i = 0; i < int(a.state.contacts.size()); ++i)
-		if (a.state.contacts[i].block[0] >= 0) f.order.push_back(i);
-	std::sort(f.order.begin(), f.order.end(), [&](int i, int j) { return a.state.contacts[i].block < a.state.contacts[j].block; });
+	FreeContacts& f      = a.contacts;
+	const auto&   all    = a.state.contacts.all(); // a new edition: columns that know the old order are used no more
+	const int     blocks = a.blockCount();
+	const auto    count  = [&](std::vector<int>& first, int sides) { // the contacts of block b begin at first[b]
+                first.assign(blocks + 1, 0);
+                for (const FreeContact& c : all)
+                        for (int side = 0; side < sides && c.block[0] >= 0; ++side)
+                                ++first[c.block[side] + 1];
+                std::partial_sum(first.begin(), first.end(), first.begin());
+	};
+	std::vector<int> firstOfFirst; // block -> its contacts with later ones
+	count(firstOfFirst, 1);
+	std::vector<int> next = firstOfFirst;
+	f.order.resize(firstOfFirst.back());
+	for (int i = 0; i < int(all.size()); ++i)
+		if (all[i].block[0] >= 0) f.order[next[all[i].block[0]]++] = i;
+	for (int b = 0; b < blocks; ++b)
+		std::sort(f.order.begin() + firstOfFirst[b], f.order.begin() + firstOfFirst[b + 1], [&](int i, int j) {
+			return all[i].block[1] < all[j].block[1];
+		});
 	f.sleep.clear();
 	for (int i : f.order)
-		f.sleep.push_back({ a.state.contacts[i].block });
+		f.sleep.push_back({ all[i].block });
 	f.ofBlock.assign(2 * f.order.size(), 0);
-	f.firstOfBlock.assign(f.order.empty() ? 0 : a.blockCount() + 1, 0);
-	for (int i : f.order)
-		for (int block : a.state.contacts[i].block)
-			++f.firstOfBlock[block + 1];
-	std::partial_sum(f.firstOfBlock.begin(), f.firstOfBlock.end(), f.firstOfBlock.begin());
-	std::vector<int> next = f.firstOfBlock;
-	f.rangeOf.resize(a.state.contacts.size());
+	count(f.firstOfBlock, 2);
+	if (f.order.empty()) f.firstOfBlock.clear();
+	next = f.firstOfBlock;
+	f.rangeOf.resize(all.size());
 	for (int i : f.order) // sorted by both blocks: every block meets the others in their order
 		for (int side : { 0, 1 }) {
-			int& place         = next[a.state.contacts[i].block[side]];
+			int& place         = next[all[i].block[side]];
 			f.ofBlock[place]   = i;
 			f.rangeOf[i][side] = place++;
 		}
