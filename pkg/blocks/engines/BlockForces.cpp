@@ -2,6 +2,7 @@
 #include <blocks/engines/BlockForces.hpp>
 #include <blocks/engines/EngineList.hpp>
 #include <blocks/engines/RigidBodies.hpp>
+#include <blocks/kernel/step/ContactResults.hpp>
 #include <blocks/kernel/step/Step.hpp>
 #include <core/EnergyTracker.hpp>
 

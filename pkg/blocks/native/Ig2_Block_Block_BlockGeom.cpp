@@ -1,5 +1,4 @@
 // yade-blocks, GPL-2.0-or-later
-#include <blocks/kernel/step/Contacts.hpp>
 #include <blocks/kernel/step/Joints.hpp>
 #include <blocks/native/Ig2_Block_Block_BlockGeom.hpp>
 

@@ -4,7 +4,7 @@
 #include <blocks/kernel/geometry/Zoning.hpp>
 #include <blocks/kernel/model/Fingerprint.hpp>
 #include <blocks/kernel/model/Outline.hpp>
-#include <blocks/kernel/step/Contacts.hpp>
+#include <blocks/kernel/step/ContactResults.hpp>
 #include <blocks/kernel/step/Joints.hpp>
 #include <blocks/kernel/step/ZoneForces.hpp>
 #include <blocks/python/ModelPython.hpp>

@@ -1,5 +1,5 @@
 // yade-blocks, GPL-2.0-or-later
-#include <blocks/kernel/step/Contacts.hpp>
+#include <blocks/kernel/step/ContactResults.hpp>
 #include <blocks/kernel/step/Joints.hpp>
 #include <blocks/views/BlockGeom.hpp>
 

@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <Specimens.hpp>
 #include <blocks/kernel/analysis/Removal.hpp>
+#include <blocks/kernel/step/ContactResults.hpp>
 #include <blocks/kernel/step/InSitu.hpp>
 #include <blocks/kernel/step/ViscousBoundaries.hpp>
 

@@ -2,6 +2,7 @@
 #include <Specimens.hpp>
 #include <blocks/kernel/analysis/Energy.hpp>
 #include <blocks/kernel/analysis/StabilityWatch.hpp>
+#include <blocks/kernel/step/ContactResults.hpp>
 
 // What used to go wrong without a word.
 using namespace specimens;

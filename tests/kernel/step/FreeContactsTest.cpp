@@ -1,6 +1,8 @@
 // yade-blocks, GPL-2.0-or-later
 #include <Specimens.hpp>
 #include <blocks/kernel/analysis/StabilityWatch.hpp>
+#include <blocks/kernel/step/ContactResults.hpp>
+#include <blocks/kernel/step/TimeStep.hpp>
 
 using namespace specimens;
 

@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <Specimens.hpp>
+#include <blocks/kernel/step/ContactResults.hpp>
 
 using namespace specimens;
 

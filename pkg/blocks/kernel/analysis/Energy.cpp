@@ -1,7 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
 #include <blocks/kernel/analysis/Energy.hpp>
-#include <blocks/kernel/step/Contacts.hpp>
+#include <blocks/kernel/step/ContactResults.hpp>
 #include <blocks/kernel/step/Joints.hpp>
 #include <blocks/kernel/step/ZoneForces.hpp>
 #include <limits>

@@ -99,6 +99,42 @@ void sortContacts(BlockAssembly& a)
 		if (f.firstOfBlock[b] != f.firstOfBlock[b + 1]) f.blocksInContact.push_back(b);
 }
 
+void makeContacts(BlockAssembly& a, const std::vector<std::array<int, 2>>& wanted)
+{
+	std::vector<FreeContact>& all  = a.state.contacts.all();
+	size_t                    slot = 0, made = 0;
+	for (size_t i = 0; i < wanted.size(); ++i) {
+		const auto& blocks = wanted[i];
+		if ((i > 0 && wanted[i - 1] == blocks) || contactOf(a, blocks[0], blocks[1]) >= 0) continue;
+		while (slot < all.size() && all[slot].block[0] >= 0)
+			++slot;
+		if (slot == all.size()) all.emplace_back();
+		all[slot]       = {};
+		all[slot].block = blocks;
+		const int kind  = a.joints.kindOfMaterials(a.mesh.blockMaterial[blocks[0]], a.mesh.blockMaterial[blocks[1]]);
+		if (kind > 0) all[slot].joint = a.joints.kinds[kind];
+		++made;
+	}
+	if (made > 0) sortContacts(a);
+}
+
+int pairOf(const BlockAssembly& a, const std::array<int, 2>& blocks)
+{
+	const auto& pairs = a.joints.pairs;
+	const auto  at    = std::lower_bound(pairs.begin(), pairs.end(), blocks, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
+	return at == pairs.end() || at->block != blocks ? -1 : int(at - pairs.begin());
+}
+
+int contactOf(const BlockAssembly& a, int block1, int block2)
+{
+	const FreeContacts& f   = a.contacts;
+	const auto          key = ordered(block1, block2);
+	if (key[0] + 1 >= int(f.firstOfBlock.size())) return -1;
+	for (int i = f.firstOfBlock[key[0]]; i < f.firstOfBlock[key[0] + 1]; ++i)
+		if (a.state.contacts[f.ofBlock[i]].block == key) return f.ofBlock[i];
+	return -1;
+}
+
 void nameEdges(const BlockAssembly& a, EdgePair& e)
 {
 	const FreeContacts& f = a.contacts;

@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <blocks/kernel/laws/EdgeContact.hpp>
 #include <blocks/kernel/laws/JointLaw.hpp>
@@ -218,6 +219,17 @@ Real meanEdge(const BlockAssembly&, int block);
 
 /// Lists the contacts by blocks; again whenever some have come or gone.
 void sortContacts(BlockAssembly&);
+
+/// Contacts of those pairs of blocks [sorted] that have none. Their properties are those of the two materials, if they are known.
+void makeContacts(BlockAssembly&, const std::vector<std::array<int, 2>>& wanted);
+
+inline std::array<int, 2> ordered(int block1, int block2) { return { std::min(block1, block2), std::max(block1, block2) }; }
+
+/// The contact of two blocks, or -1.
+int contactOf(const BlockAssembly&, int block1, int block2);
+
+/// The pair of bonded blocks, first < second, or -1.
+int pairOf(const BlockAssembly&, const std::array<int, 2>& blocks);
 
 /// The nodes and shape of a pair of edges, from its two edges.
 void nameEdges(const BlockAssembly&, EdgePair&);

@@ -14,10 +14,4 @@ void setGeneralContact(BlockAssembly&, bool);
 /// gets what joints held and the free contacts that took their places do not.
 void prepareContacts(BlockAssembly&, Real dt = 0, bool account = false);
 
-/// The contact of two blocks, or -1.
-int contactOf(const BlockAssembly&, int block1, int block2);
-
-/// The pair of bonded blocks, first < second, or -1.
-int pairOf(const BlockAssembly&, const std::array<int, 2>& blocks);
-
 } // namespace blocks

@@ -1,10 +1,10 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
 #include <blocks/kernel/Two.hpp>
-#include <blocks/kernel/laws/EdgeContactLaw.hpp>
-#include <blocks/kernel/step/ContactSearch.hpp>
+#include <blocks/kernel/step/ContactResults.hpp>
 #include <blocks/kernel/step/Contacts.hpp>
 #include <blocks/kernel/step/EdgeBatch.hpp>
+#include <blocks/kernel/step/RaisedCorners.hpp>
 #include <cassert>
 #include <limits>
 
@@ -50,25 +50,6 @@ namespace {
 		const Real                ofB = std::max((now[1] - rest.from[1]).squaredNorm(), (now[2] - rest.from[2]).squaredNorm());
 		return rest.free - (now[0] - rest.from[0]).norm() - std::sqrt(ofB);
 	}
-
-	FourPoints points(const Corners& c) { return { c[0], c[1], c[2], c[3] }; }
-	Corners corners(const FourPoints& p) { return { { { p[0].x(), p[0].y() }, { p[1].x(), p[1].y() }, { p[2].x(), p[2].y() }, { p[3].x(), p[3].y() } } }; }
-
-	/// The corners of what touches, relative to where a0 was without stress, so that they are exact far from the origin too [m].
-	ALWAYS Corners raisedCorners(const BlockAssembly& a, const EdgePair& e)
-	{
-		const Vec2 *X = a.mesh.reference.data(), *u = a.state.displacement.data();
-		const Vec2& o = X[e.node[0]];
-		Corners     c;
-		c[0] = { u[e.node[0]].x(), u[e.node[0]].y() };
-		eachOf<3>([&](auto k) INLINE {
-			const int n = e.node[k + 1];
-			c[k + 1]    = { X[n].x() - o.x() + u[n].x(), X[n].y() - o.y() + u[n].y() };
-		});
-		return e.uplift != 0 ? corners(raised(points(c), e.uplift)) : c;
-	}
-
-	Real shearEnergy(const FreeContact& c, const EdgePair& e) { return c.joint.ks / 2 * e.area * (e.slip[0] * e.slip[0] + e.slip[1] * e.slip[1]); }
 
 	/// A run of contacts on its way through a step.
 	class Work {
@@ -353,17 +334,6 @@ namespace {
 
 } // namespace
 
-Real normalEnergyBefore(const BlockAssembly& a, const FreeContact& c, const EdgePair& e, Real dt)
-{
-	EdgePair flat = e;
-	flat.uplift   = 0;
-	FourPoints x  = points(raisedCorners(a, flat));
-	for (int i = 0; i < 4; ++i)
-		x[i] -= dt * a.state.velocity[e.node[i]];
-	const EdgeGeometry g = edgeGeometry(e.uplift != 0 ? raised(x, e.uplift) : x, e.shape);
-	return g.active() ? c.joint.kn * a.thickness * edgePotential(g) : 0;
-}
-
 void setContactJoint(BlockAssembly& a, int contact, const JointParams& joint)
 {
 	validate(joint);
@@ -398,77 +368,6 @@ void gatherContactForces(const BlockAssembly& a, int block, Vec2* force)
 			force[on.node[0]] += on.force[0];
 			force[on.node[1]] += on.force[1];
 		}
-}
-
-std::vector<Real> contactStiffness(const BlockAssembly& a)
-{
-	// Overlaps do not overlap: the areas on one edge add up to its own, however many blocks there are. So its two vertices
-	// get at most as much as from point contacts with all of T L on either vertex: 2 k (T L / 2) from each edge.
-	std::vector<Real> stiffest(a.blockCount(), 0);
-	auto              include = [&](int block, const JointParams& joint) { stiffest[block] = std::max({ stiffest[block], joint.kn, joint.ks }); };
-	for (int i : a.contacts.order)
-		for (int block : a.state.contacts[i].block)
-			include(block, a.state.contacts[i].joint);
-	for (size_t pair = 0; pair < a.joints.pairs.size(); ++pair)
-		for (int block : a.joints.pairs[pair].block)
-			if (stiffest[block] > 0) include(block, a.joints.of(a.joints.pairs[pair].first));
-
-	std::vector<Real> stiffness(a.nodeCount(), 0);
-	for (int b = 0; b < a.blockCount(); ++b)
-		for (int e = a.mesh.firstEdge[b]; e < a.mesh.firstEdge[b + 1]; ++e) {
-			const auto& node  = a.mesh.edgeNodes[e];
-			const Real  share = stiffest[b] * a.thickness * (a.mesh.reference[node[1]] - a.mesh.reference[node[0]]).norm();
-			stiffness[node[0]] += share;
-			stiffness[node[1]] += share;
-		}
-	return stiffness;
-}
-
-Real contactEnergy(const BlockAssembly& a)
-{
-	Real sum = 0;
-	for (int i : a.contacts.order) {
-		const FreeContact& c = a.state.contacts[i];
-		for (int pair : c.active)
-			sum += c.joint.kn * a.thickness * c.edges[pair].potential + shearEnergy(c, c.edges[pair]);
-	}
-	return sum;
-}
-
-Real contactFriction(const BlockAssembly& a)
-{
-	Real sum = a.state.lostFriction;
-	for (int i : a.contacts.order)
-		sum += a.state.contacts[i].friction;
-	return sum;
-}
-
-ContactEnd contactEnd(const BlockAssembly& a, const FreeContact& c, int active, int k)
-{
-	const EdgePair&    e   = c.edges[c.active[active]];
-	const FourPoints   x   = points(raisedCorners(a, e));
-	const EdgeGeometry g   = edgeGeometry(x, e.shape);
-	const EdgeEnd      end = edgeEnd(x, g, k);
-	return { a.mesh.reference[e.node[0]] + (Vec2(end.onA) + Vec2(end.onB)) / 2, { g.t.y, -g.t.x }, -e.sigma[k] / c.joint.kn, e.sigma[k], e.tau[k], e.area };
-}
-
-PointStresses pointStresses(const BlockAssembly& a, int first, int last)
-{
-	auto          part = [&](const std::vector<Real>& all) { return std::vector<Real>(all.begin() + 2 * first, all.begin() + 2 * last); };
-	PointStresses out { part(a.state.sigma), part(a.state.tau) };
-	for (int i = first; i < last; ++i) {
-		if (!a.state.released[i]) continue;
-		const Segment& g       = a.joints.segments[i];
-		const int      contact = contactOf(a, g.block[0], g.block[1]);
-		if (contact < 0) continue; // also of removed blocks, maybe without any contact in the scene
-		const std::array<int, 2> key { a.contacts.edgeFrom[g.node[0]], a.contacts.edgeFrom[g.node[2]] };
-		const auto&              edges = a.state.contacts[contact].edges;
-		const auto at = std::lower_bound(edges.begin(), edges.end(), key, [](const EdgePair& e, const std::array<int, 2>& k) { return e.edge < k; });
-		if (at == edges.end() || at->edge != key || !at->touching) continue;
-		for (int k : { 0, 1 })
-			out.sigma[2 * (i - first) + k] = at->sigma[k], out.tau[2 * (i - first) + k] = at->tau[k];
-	}
-	return out;
 }
 
 } // namespace blocks

@@ -1,5 +1,5 @@
 // yade-blocks, GPL-2.0-or-later
-#include <blocks/kernel/step/Contacts.hpp>
+#include <algorithm>
 #include <blocks/kernel/step/TimeStep.hpp>
 
 namespace blocks {
@@ -73,6 +73,30 @@ std::vector<Real> nodalStiffness(const BlockAssembly& a, std::vector<Real> stiff
 		for (int n = 0; n < a.nodeCount(); ++n)
 			stiffness[n] += contacts[n];
 	}
+	return stiffness;
+}
+
+std::vector<Real> contactStiffness(const BlockAssembly& a)
+{
+	// Overlaps do not overlap: the areas on one edge add up to its own, however many blocks there are. So its two vertices
+	// get at most as much as from point contacts with all of T L on either vertex: 2 k (T L / 2) from each edge.
+	std::vector<Real> stiffest(a.blockCount(), 0);
+	auto              include = [&](int block, const JointParams& joint) { stiffest[block] = std::max({ stiffest[block], joint.kn, joint.ks }); };
+	for (int i : a.contacts.order)
+		for (int block : a.state.contacts[i].block)
+			include(block, a.state.contacts[i].joint);
+	for (size_t pair = 0; pair < a.joints.pairs.size(); ++pair)
+		for (int block : a.joints.pairs[pair].block)
+			if (stiffest[block] > 0) include(block, a.joints.of(a.joints.pairs[pair].first));
+
+	std::vector<Real> stiffness(a.nodeCount(), 0);
+	for (int b = 0; b < a.blockCount(); ++b)
+		for (int e = a.mesh.firstEdge[b]; e < a.mesh.firstEdge[b + 1]; ++e) {
+			const auto& node  = a.mesh.edgeNodes[e];
+			const Real  share = stiffest[b] * a.thickness * (a.mesh.reference[node[1]] - a.mesh.reference[node[0]]).norm();
+			stiffness[node[0]] += share;
+			stiffness[node[1]] += share;
+		}
 	return stiffness;
 }
 

@@ -16,6 +16,9 @@ std::vector<Real> nodalStiffness(const BlockAssembly&);
 std::vector<Real> zoneStiffness(const BlockAssembly&);
 std::vector<Real> nodalStiffness(const BlockAssembly&, std::vector<Real> ofZones);
 
+/// The share of contacts, of those that touch and those that may, in the bound of nodalStiffness [N/m].
+std::vector<Real> contactStiffness(const BlockAssembly&);
+
 /// min 2 sqrt(m / K) over the grid points that can move, for the true masses or the scaled ones [s].
 ///
 /// Viscous boundaries do not lower it. Their force is taken at the mean of the velocities before and after, so that

@@ -1,0 +1,222 @@
+// yade-blocks, GPL-2.0-or-later
+#include <algorithm>
+#include <blocks/kernel/step/Boxes.hpp>
+#include <blocks/kernel/step/EdgeDetection.hpp>
+#include <blocks/kernel/step/Paths.hpp>
+#include <blocks/kernel/step/Release.hpp>
+#include <blocks/kernel/step/ContactResults.hpp>
+#include <limits>
+#include <set>
+
+namespace blocks {
+namespace {
+
+	/// A joint dilates until it has slid by its limit slip, or by this share of its length.
+	constexpr Real dilatesFor = 0.25;
+
+	/// What a broken joint waits for before its edges become a free contact.
+	enum class Release { never, later, now };
+
+	Release releaseOf(const BlockAssembly& a, int joint)
+	{
+		const JointParams& p      = a.joints.of(joint);
+		auto               broken = [&](int i) { return a.state.status[i] != Joint::intact && a.state.status[i] != Joint::softening; };
+		const int          ends   = broken(2 * joint) + broken(2 * joint + 1);
+		if (a.joints.softens(joint)) {
+			if (ends == 0 || a.joints.softeningOf(joint).cap.strength > 0) return Release::never; // free contacts have no cap
+			if (edgesPassed(a, joint)) return Release::now; // a fragment turns about an end that still holds, or has slid away from its edge
+			if (ends < 2) return Release::later;
+			const Softened& soft = a.state.softened;
+			for (int i : { 2 * joint, 2 * joint + 1 })
+				if (a.state.status[i] != Joint::unbonded && soft.k[i] < softeningEnd) return Release::later; // some bond is left
+		}
+		if (ends < 2) return Release::never; // until it breaks, which will be noticed
+		for (int i : { 2 * joint, 2 * joint + 1 }) {
+			if (a.state.sigma[i] > 0) return Release::later; // residual tension stays with the point law
+			// so does a joint that goes on dilating, and one that rests on ends raised by different amounts, which a free contact would level
+			if (a.state.sigma[i] < 0 && (p.tanDilation > 0 || a.state.uplift[2 * joint] != a.state.uplift[2 * joint + 1])
+			    && std::abs(a.state.slipPlastic[i]) < std::min(p.dilationLimitSlip, dilatesFor * 2 * a.joints.segments[joint].area / a.thickness))
+				return Release::later;
+		}
+		return Release::now;
+	}
+
+	/// A pair of edges that takes a joint's place may hold so much more than the joint did, by what the joint holds or held when it broke. It is the
+	/// 1 % by which energy may be out of balance.
+	constexpr Real mayGain = 0.01;
+
+	/// Lowers edge A of a pair until the two held no more than this a step ago. What the pair holds [J].
+	Real lower(const BlockAssembly& a, const FreeContact& c, EdgePair& e, Real most, Real dt)
+	{
+		Real energy = normalEnergyBefore(a, c, e, dt);
+		if (energy <= most) return energy;
+		auto tooHigh = [&](Real uplift) {
+			EdgePair at = e;
+			at.uplift   = uplift;
+			energy      = normalEnergyBefore(a, c, at, dt);
+			return energy > most;
+		};
+		Real       high = e.uplift, far = std::numeric_limits<Real>::epsilon() * e.shape.depthLimit;
+		const Real from = e.uplift;
+		while (tooHigh(from - far))
+			high = from - far, far *= 2;
+		Real low = from - far;
+		for (int i = 0; i < 30; ++i) { // to 1e-9 of what it is lowered by
+			const Real middle              = (low + high) / 2;
+			(tooHigh(middle) ? high : low) = middle;
+		}
+		e.uplift = low;
+		return normalEnergyBefore(a, c, e, dt);
+	}
+
+	/// Looks for the edge pairs of a contact. Those that it did not have are lowered until they only touch.
+	void detectMore(BlockAssembly& a, FreeContact& c, Real dt)
+	{
+		std::vector<std::array<int, 2>> known;
+		for (const EdgePair& e : c.edges)
+			known.push_back(e.edge);
+		detectEdges(a, c);
+		for (EdgePair& e : c.edges)
+			if (!std::binary_search(known.begin(), known.end(), e.edge)) lower(a, c, e, 0, dt);
+	}
+
+	/// Turns a broken joint into a free edge pair, which takes over its slip. With the joint the other edges of the two blocks come to act, too. They may
+	/// overlap by then, and a joint may have dilated more at one end than there is room for at the other: such pairs are lowered, so that no energy comes
+	/// from nowhere. What the joint held and its successors do not hold is the return value [J].
+	Real release(BlockAssembly& a, int joint, int contact, bool isNew, Real dt)
+	{
+		const Segment&    g   = a.joints.segments[joint];
+		const JointParams own = a.joints.of(joint);
+		a.releaseJoint(joint); // from here on it carries nothing
+		FreeContact& c = a.state.contacts[contact];
+		if (isNew || !(c.joint.kn > 0)) c.joint = a.joints.of(joint); // not those of two materials that were never bonded
+		std::vector<std::array<int, 2>> known;
+		for (const EdgePair& e : c.edges)
+			known.push_back(e.edge);
+		detectEdges(a, c);
+		const auto key = edgesOf(a, g);
+		const auto at
+			= std::lower_bound(c.edges.begin(), c.edges.end(), key, [](const EdgePair& e, const std::array<int, 2>& k) { return e.edge < k; });
+		const bool near   = at != c.edges.end() && at->edge == key;
+		Real       normal = 0, shear = 0; // that the joint held [J]
+		for (int p : { 2 * joint, 2 * joint + 1 }) {
+			normal += g.area * a.state.sigma[p] * a.state.sigma[p] / (2 * own.kn);
+			shear += g.area * a.state.tau[p] * a.state.tau[p] / (2 * own.ks);
+		}
+		if (near) {
+			at->area   = g.area;
+			at->uplift = (a.state.uplift[2 * joint] + a.state.uplift[2 * joint + 1]) / 2;
+			if (const auto& start = a.joints.inSituOpening; !start.empty()) at->uplift -= (start[joint][0] + start[joint][1]) / 2;
+		}
+		for (int k : { 0, 1 }) {
+			const int p = 2 * joint + k;
+			if (near) at->slip[k] = a.state.tau[p] / c.joint.ks, at->sigma[k] = a.state.sigma[p], at->tau[k] = a.state.tau[p];
+			a.state.sigma[p] = a.state.tau[p] = 0;
+		}
+		const Real atStrength = g.area * (own.tension * own.tension / own.kn + own.cohesion * own.cohesion / own.ks);
+		const Real more       = mayGain * std::max(normal, atStrength);
+		Real       lost       = normal + (near ? 0 : shear);
+		for (EdgePair& e : c.edges)
+			if (e.edge == key)
+				lost -= lower(a, c, e, normal + more, dt);
+			else if (!std::binary_search(known.begin(), known.end(), e.edge))
+				lost -= lower(a, c, e, more, dt);
+		return lost;
+	}
+
+} // namespace
+
+void askWhether(BlockAssembly& a, int joint)
+{
+	if (!a.state.released[joint] && releaseOf(a, joint) != Release::never) a.contacts.waiting.push_back(joint);
+	if (!a.state.search.loosened[joint] && !isWhole(a, joint)) a.contacts.loosening.push_back(joint);
+}
+
+void collectBroken(BlockAssembly& a)
+{
+	FreeContacts& f      = a.contacts;
+	const auto    before = f.waiting.size();
+	for (size_t batch = 0; batch < a.forces.broke.size(); ++batch) {
+		if (!a.forces.broke[batch]) continue;
+		a.forces.broke[batch] = false;
+		const int last        = std::min(a.joints.count(), int(batch + 1) * Joints::batch);
+		for (int i = int(batch) * Joints::batch; i < last; ++i)
+			askWhether(a, i);
+	}
+	if (f.waiting.size() == before) return;
+	std::sort(f.waiting.begin(), f.waiting.end());
+	f.waiting.erase(std::unique(f.waiting.begin(), f.waiting.end()), f.waiting.end());
+}
+
+void loosen(BlockAssembly& a, Real dt)
+{
+	FreeContacts&                f = a.contacts;
+	std::set<std::array<int, 2>> mayMeet;
+	for (int joint : f.loosening) {
+		a.state.search.loosened[joint] = true;
+		for (int corner : f.corners.ofJoint[joint]) {
+			std::set<int> blocks;
+			for (int i = f.corners.first[corner]; i < f.corners.first[corner + 1]; ++i)
+				for (int block : a.joints.segments[f.corners.joints[i]].block)
+					if (!a.isRemoved(block)) blocks.insert(block);
+			for (auto first = blocks.begin(); first != blocks.end(); ++first)
+				for (auto second = std::next(first); second != blocks.end(); ++second)
+					mayMeet.insert({ *first, *second });
+		}
+	}
+	f.loosening.clear();
+	followAll(a);
+	std::vector<std::array<int, 2>>    keys;
+	std::vector<std::vector<EdgePair>> edges;
+	for (const auto& key : mayMeet) {
+		if (const int known = contactOf(a, key[0], key[1]); known >= 0)
+			detectMore(a, a.state.contacts[known], dt);
+		else if (pairOf(a, key) < 0) { // pairs with joints get a contact when one of these is released
+			FreeContact candidate;
+			candidate.block = key;
+			detectEdges(a, candidate);
+			if (candidate.edges.empty()) continue;
+			keys.push_back(key);
+			edges.push_back(std::move(candidate.edges));
+		}
+	}
+	makeContacts(a, keys);
+	for (size_t i = 0; i < keys.size(); ++i) {
+		FreeContact& made = a.state.contacts[contactOf(a, keys[i][0], keys[i][1])];
+		made.edges        = std::move(edges[i]);
+		for (EdgePair& e : made.edges)
+			lower(a, made, e, 0, dt);
+		forgetActive(made);
+	}
+	placeForces(a);
+	if (!keys.empty()) ++f.version;
+}
+
+void releaseBroken(BlockAssembly& a, Real dt, bool account)
+{
+	FreeContacts&                   f    = a.contacts;
+	size_t                          kept = 0;
+	std::vector<int>                now;
+	std::vector<std::array<int, 2>> blocks;
+	std::vector<char>               isFirst; // whether these two blocks have no contact yet
+	for (int joint : f.waiting)
+		if (releaseOf(a, joint) == Release::now) {
+			const auto& two = a.joints.segments[joint].block;
+			isFirst.push_back(contactOf(a, two[0], two[1]) < 0 && (blocks.empty() || blocks.back() != two));
+			now.push_back(joint);
+			blocks.push_back(two);
+		} else
+			f.waiting[kept++] = joint;
+	if (now.empty()) return;
+	followAll(a);
+	f.waiting.resize(kept);
+	makeContacts(a, blocks);
+	Real lost = 0;
+	for (size_t i = 0; i < now.size(); ++i)
+		lost += release(a, now[i], contactOf(a, blocks[i][0], blocks[i][1]), isFirst[i], dt);
+	if (account) a.state.accounts.friction += lost;
+	placeForces(a);
+	++f.version;
+}
+
+} // namespace blocks

@@ -1,0 +1,97 @@
+// yade-blocks, GPL-2.0-or-later
+#include <CGAL/box_intersection_d.h>
+#include <algorithm>
+#include <blocks/kernel/step/Boxes.hpp>
+#include <blocks/kernel/step/EdgeDetection.hpp>
+#include <blocks/kernel/step/Tunnelling.hpp>
+
+namespace blocks {
+namespace {
+
+	/// Mean velocity of a block's grid points, and the most by which one of them differs from another block's mean [m/s].
+	Vec2 meanVelocity(const BlockAssembly& a, int block)
+	{
+		Vec2 sum = Vec2::Zero();
+		for (int n = a.mesh.firstNode[block]; n < a.mesh.firstNode[block + 1]; ++n)
+			sum += a.state.velocity[n];
+		return sum / (a.mesh.firstNode[block + 1] - a.mesh.firstNode[block]);
+	}
+	Real fastest(const BlockAssembly& a, int block, const Vec2& against)
+	{
+		Real square = 0;
+		for (int n = a.mesh.firstNode[block]; n < a.mesh.firstNode[block + 1]; ++n)
+			square = std::max(square, (a.state.velocity[n] - against).squaredNorm());
+		return std::sqrt(square);
+	}
+
+	/// Where a block was a step ago, is, and will be a step on, as seen from one that moves.
+	Box sweptBox(const BlockAssembly& a, int block, const Vec2& against, Real dt)
+	{
+		Box box = boxOf(a, block);
+		for (int e = a.mesh.firstEdge[block]; e < a.mesh.firstEdge[block + 1]; ++e) {
+			const int  n    = a.mesh.edgeNodes[e][0];
+			const Vec2 step = dt * (a.state.velocity[n] - against);
+			box.include(a.position(n) - step);
+			box.include(a.position(n) + step);
+		}
+		return box;
+	}
+
+	using BoxOf = CGAL::Box_intersection_d::Box_with_handle_d<Real, 2, const int*, CGAL::Box_intersection_d::ID_EXPLICIT>;
+
+	/// Which of `some` blocks may come near which other one within a step, in order. mean: velocities of all blocks [m/s].
+	std::vector<std::array<int, 2>> onTheWay(const BlockAssembly& a, const std::vector<int>& some, const std::vector<Vec2>& mean, Real dt)
+	{
+		const std::vector<int> every = presentBlocks(a);
+		auto                   boxes = [&](const std::vector<int>& blocks, bool ofPoints) {
+                        std::vector<BoxOf> list;
+                        list.reserve(blocks.size());
+                        for (const int& block : blocks) {
+                                Box box = ofPoints ? sweptBox(a, block, Vec2::Zero(), dt) : boxOf(a, block);
+                                if (!ofPoints) {
+                                        const Vec2 way = dt * mean[block].cwiseAbs();
+                                        box            = { box.low - way, box.high + way };
+                                }
+                                if (!box.low.allFinite() || !box.high.allFinite()) continue; // the watch will tell
+                                Real low[] = { box.low.x(), box.low.y() }, high[] = { box.high.x(), box.high.y() };
+                                list.emplace_back(low, high, &block);
+                        }
+                        return list;
+		};
+		std::vector<BoxOf>              fast = boxes(some, true), all = boxes(every, false);
+		std::vector<std::array<int, 2>> found;
+		CGAL::box_intersection_d(fast.begin(), fast.end(), all.begin(), all.end(), [&](const BoxOf& p, const BoxOf& q) {
+			if (*p.handle() != *q.handle()) found.push_back({ *p.handle(), *q.handle() });
+		});
+		std::sort(found.begin(), found.end());
+		found.erase(std::unique(found.begin(), found.end()), found.end());
+		return found;
+	}
+
+} // namespace
+
+void refuseTunnelling(const BlockAssembly& a, Real dt)
+{
+	const FreeContacts& f = a.contacts;
+	std::vector<Vec2>   mean;
+	std::vector<int>    fast;
+	for (int b = 0; b < a.blockCount(); ++b) {
+		mean.push_back(meanVelocity(a, b));
+		if (fastest(a, b, Vec2::Zero()) * dt > f.mostAStep * f.leastDepth) fast.push_back(b);
+	}
+	for (const auto& [b, other] : onTheWay(a, fast, mean, dt)) {
+		const Vec2& with  = mean[other];
+		const Real  limit = f.mostAStep * std::min(f.depthLimit[b], f.depthLimit[other]);
+		if (((mean[b] - with).norm() + fastest(a, b, mean[b])) * dt <= limit)
+			continue; // they move along together: most do, and need no closer look
+		const Real speed = fastest(a, b, with);
+		if (speed * dt <= limit || !sweptBox(a, b, with, dt).meets(boxOf(a, other), 0)) continue;
+		if (pairOf(a, ordered(b, other)) >= 0 && !edgesOfJoints(a, ordered(b, other), false).empty()) continue;
+		throw std::runtime_error(
+			"block " + std::to_string(b) + " nears block " + std::to_string(other) + " at " + shown(speed, 6) + " m/s, "
+			+ shown(speed * dt, 3) + " m a step, and might pass through it: contacts need steps of at most " + shown(limit, 3)
+			+ " m, so O.dt must not exceed " + shown(limit / speed, 3) + " s at this speed");
+	}
+}
+
+} // namespace blocks
