@@ -30,7 +30,7 @@ std::vector<std::array<int, 2>> edgesOfJoints(const BlockAssembly& a, const std:
 {
 	std::vector<std::array<int, 2>> list;
 	const auto                      pair = std::lower_bound(
-                        a.joints.pairs.begin(), a.joints.pairs.end(), blocks, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
+                a.joints.pairs.begin(), a.joints.pairs.end(), blocks, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
 	if (pair == a.joints.pairs.end() || pair->block != blocks) return list;
 	for (int s = pair->first; s < pair->last; ++s)
 		if (releasedToo || !a.state.released[s]) list.push_back(edgesOf(a, a.joints.segments[s]));

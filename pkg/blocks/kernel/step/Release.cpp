@@ -1,10 +1,10 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
 #include <blocks/kernel/step/Boxes.hpp>
+#include <blocks/kernel/step/ContactResults.hpp>
 #include <blocks/kernel/step/EdgeDetection.hpp>
 #include <blocks/kernel/step/Paths.hpp>
 #include <blocks/kernel/step/Release.hpp>
-#include <blocks/kernel/step/ContactResults.hpp>
 #include <limits>
 #include <set>
 

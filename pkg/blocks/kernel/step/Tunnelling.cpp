@@ -82,15 +82,14 @@ void refuseTunnelling(const BlockAssembly& a, Real dt)
 	for (const auto& [b, other] : onTheWay(a, fast, mean, dt)) {
 		const Vec2& with  = mean[other];
 		const Real  limit = f.mostAStep * std::min(f.depthLimit[b], f.depthLimit[other]);
-		if (((mean[b] - with).norm() + fastest(a, b, mean[b])) * dt <= limit)
-			continue; // they move along together: most do, and need no closer look
+		if (((mean[b] - with).norm() + fastest(a, b, mean[b])) * dt <= limit) continue; // they move along together: most do, and need no closer look
 		const Real speed = fastest(a, b, with);
 		if (speed * dt <= limit || !sweptBox(a, b, with, dt).meets(boxOf(a, other), 0)) continue;
 		if (pairOf(a, ordered(b, other)) >= 0 && !edgesOfJoints(a, ordered(b, other), false).empty()) continue;
 		throw std::runtime_error(
-			"block " + std::to_string(b) + " nears block " + std::to_string(other) + " at " + shown(speed, 6) + " m/s, "
-			+ shown(speed * dt, 3) + " m a step, and might pass through it: contacts need steps of at most " + shown(limit, 3)
-			+ " m, so O.dt must not exceed " + shown(limit / speed, 3) + " s at this speed");
+			"block " + std::to_string(b) + " nears block " + std::to_string(other) + " at " + shown(speed, 6) + " m/s, " + shown(speed * dt, 3)
+			+ " m a step, and might pass through it: contacts need steps of at most " + shown(limit, 3) + " m, so O.dt must not exceed "
+			+ shown(limit / speed, 3) + " s at this speed");
 	}
 }
 
