@@ -3,6 +3,7 @@
 #include <blocks/kernel/geometry/Polygon.hpp>
 #include <blocks/kernel/laws/JointKinematics.hpp>
 #include <blocks/kernel/model/BlockAssembly.hpp>
+#include <cassert>
 #include <numeric>
 
 namespace blocks {
@@ -286,6 +287,7 @@ void BlockAssembly::rebuildJoints()
 	for (int k : { 0, 1 })
 		for (auto* column : { &c.s1[k], &c.s2[k], &c.bondOpening[k], &c.bondSlip[k] })
 			column->resize(count);
+	assert(std::is_sorted(joints.segments.begin(), joints.segments.end(), [](const Segment& g, const Segment& h) { return g.block[0] < h.block[0]; }));
 	joints.node.resize(count);
 	joints.effective.resize(count);
 	joints.kindOfBatch.resize(batches);
