@@ -1,6 +1,6 @@
 #!/bin/bash
-# How the code looks: clang-format, yapf, flake8, and no line beyond 160 columns in any document; and patches
-# of tests/breakages that can be applied. scripts/lint.sh checks, scripts/lint.sh fix formats.
+# How the code looks: clang-format, yapf, flake8, no comment that goes on with another one's sentence, and no line beyond 160 columns in any
+# document; and patches of tests/breakages that can be applied. scripts/lint.sh checks, scripts/lint.sh fix formats.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install.sh clang-format yapf3 flake8
@@ -15,6 +15,10 @@ if [ "${1:-}" = fix ]; then
 fi
 failed=0
 for patch in tests/breakages/*.patch; do git apply --check "$patch" || failed=1; done # what cannot be applied breaks nothing
+if grep -nE '//[/<]* \.\.\.' "${cpp[@]}"; then # a comment stands for itself
+	echo "these comments go on with a sentence of another one"
+	failed=1
+fi
 clang-format --dry-run -Werror "${cpp[@]}" || failed=1
 yapf3 -d -p "${py[@]}" || failed=1
 flake8 "${py[@]}" || failed=1

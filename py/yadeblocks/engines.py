@@ -50,9 +50,9 @@ def engineList(joints, contact=False, stepper={}, servo=None, newton=None, **int
 
 
 def contactEngines():
-	"""What stands in front where broken joints may slide on, part and meet again; the collider wakes where something moved far enough."""
+	"""What stands in front of YADE's InteractionLoop where broken joints may slide on, part and meet again. Blocks need no collider."""
 	import yade.wrapper as y
-	return [y.BlockContacts(), y.InsertionSortCollider([y.Bo1_Block_Aabb()], verletDist=0)]
+	return [y.BlockContacts()]
 
 
 def find(kind):

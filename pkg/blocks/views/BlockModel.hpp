@@ -25,7 +25,7 @@ public:
 	long stiffnessVersion() const { return version; }
 	void stiffnessChanged() { version = ++lastVersion; }
 
-	/// ... and zones, too.
+	/// The stiffness of zones has changed.
 	void zonesChanged() { zoneStiffness.clear(), stiffnessChanged(); }
 
 	virtual ~BlockModel();

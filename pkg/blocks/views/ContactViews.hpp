@@ -7,7 +7,7 @@ namespace yade {
 /// Shows free contacts that have come or gone in O.interactions. Serial; does something only where contacts have changed.
 void showContacts(Scene*, BlockModel&);
 
-/// The same for one who cannot know what has become of those that were shown: all are looked for.
+/// Shows all free contacts anew, for one who cannot know what has become of those that were shown.
 void showAllContacts(Scene*, BlockModel&);
 
 } // namespace yade

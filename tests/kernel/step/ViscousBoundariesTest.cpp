@@ -373,7 +373,7 @@ TEST(StiffnessDamping, RigidMotionIsFree)
 	const Real scale = 1e-3 * 20e9 * 0.7; // beta E t times a strain rate of 1/s
 	for (const Vec2& f : a.forces.rate)
 		EXPECT_LT(f.norm(), 1e4 * eps * scale);
-	// ... and of any other motion neither resultant nor moment is left, and it only dissipates
+	// of any other motion neither resultant nor moment is left, and it only dissipates
 	for (Vec2& v : a.state.velocity)
 		v += 100 * Vec2(shift(random), shift(random));
 	computeForces(a);

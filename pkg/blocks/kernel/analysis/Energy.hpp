@@ -10,7 +10,7 @@ Real sumOf(const std::vector<Real>&);               ///< in their order
 Real jointEnergy(const BlockAssembly&);             ///< elastic energy of the joints' springs and of free contacts
 Real bookedJointEnergy(const BlockAssembly&);       ///< the same of the last step, from the accounts where it kept them
 Real kineticEnergy(const BlockAssembly&);           ///< from the velocities at the last half step and the inertia
-Real gridPointsKineticEnergy(const BlockAssembly&); ///< ... without that of rigid blocks
+Real gridPointsKineticEnergy(const BlockAssembly&); ///< kinetic energy without that of rigid blocks
 Real loadWork(const BlockAssembly&);                ///< of the dead loads since the reference state
 Real groupWork(const BlockAssembly&);               ///< of driven and pushed degrees of freedom, released ones included
 Real rigidWork(const BlockAssembly&);               ///< of what moves rigid blocks, apart from their neighbours and dead loads

@@ -13,11 +13,11 @@ public:
 	static constexpr Real tolerance = 0.1;
 	/// Strain that is nothing but rounding (eps times specimen by zone is about 1e-14); its energy is no energy.
 	static constexpr Real roundingStrain = 1e-12;
-	/// ... with kinetic energy taken at the time of the forces, m v_before v_after / 2: only so is the sum constant where modes swing
+	/// Kinetic energy is taken at the time of the forces, m v_before v_after / 2: only so is the sum constant where modes swing
 	/// near the limit of the time step. It also is where they grow beyond that limit; but m v_before^2 / 2 is at most this many
 	/// times the sum, 2/(1 - s^2), as long as they are stable, with s the largest fraction of the limit that is allowed.
 	static constexpr Real swing = 2 / (1 - 0.95 * 0.95);
-	/// ... and is an instability if it has grown by this factor since the last look: an unstable mode grows exponentially,
+	/// Energy from nowhere is an instability if it has grown by this factor since the last look: an unstable mode grows exponentially,
 	/// a velocity that a script has set does not.
 	static constexpr Real growth = 2;
 	/// Blocks that have entered each other by more than half stop the run if they are more than this share of all. Single
@@ -61,7 +61,7 @@ private:
 	Real              baseline   = 0; ///< energy at the first look less the work done by then [J]
 	Real              lastExcess = 0;
 	Real              lastScale  = 0;     ///< what was and is in the system, at the last look [J]
-	Real              earlier    = 0;     ///< ... before loads changed, the last time [J]
+	Real              earlier    = 0;     ///< what had been in the system before loads changed, the last time [J]
 	long              compared   = 0;     ///< step of lastExcess
 	std::vector<Vec2> loads, rigidLoads;  ///< at the last look [N]
 	std::vector<Real> inertia;            ///< at the last look [kg]

@@ -278,7 +278,7 @@ namespace {
 			return false;
 		}
 
-		/// The same where the far side's next node comes before that corner: the node goes onto the wall, and the arm ends there.
+		/// Shortens an arm where the far side's next node comes before that corner: the node goes onto the wall, and the arm ends there.
 		bool shorten(int cell)
 		{
 			const IntRing ring = cells[cell];
@@ -348,7 +348,7 @@ namespace {
 			return false;
 		}
 
-		/// The same where the other side of the neck is an edge: the corner becomes a vertex of the neighbour beyond it.
+		/// Divides a cell at a neck whose other side is an edge: the corner becomes a vertex of the neighbour beyond it.
 		bool divideAtEdge(int cell)
 		{
 			const IntRing ring = cells[cell];

@@ -44,7 +44,7 @@ struct EdgeGeometry {
 	Real                c, bisector;         ///< -e_A.e_B; |e_A - e_B|
 	std::array<Real, 2> x;                   ///< lead of A's vertex over B's at either end [m]
 	std::array<Real, 2> lambda, slope;       ///< share of A's vertex in the length's end, and its derivative [1/m]
-	std::array<Real, 2> mu, muSlope;         ///< ... in the depth; derivative by x/r [-]
+	std::array<Real, 2> mu, muSlope;         ///< share of A's vertex in the depth; derivative by x/r [-]
 	std::array<Real, 2> depthA, depthB;      ///< of A's and B's vertices, not negative [m]
 	std::array<Real, 2> depth;               ///< of the two ends [m]
 	Real                y;                   ///< overlap; negative if there is none [m]
@@ -65,7 +65,7 @@ EdgeGeometry edgeGeometry(const FourPoints&, const EdgeShape&);
 /// Edge A moved out of its block by `uplift`: what a joint has dilated before its edges became a free pair stays between them.
 FourPoints raised(const FourPoints&, Real uplift);
 
-/// ... and its velocity, for the velocities of the four points.
+/// Velocities with that of the raised edge, for the velocities of the four points.
 FourPoints raisedVelocity(const FourPoints&, Real uplift, const FourPoints& velocity);
 
 /// Forces on the raised edge's ends, and on B, as forces on the four points: the work is the same.

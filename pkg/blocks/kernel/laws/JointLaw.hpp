@@ -66,8 +66,8 @@ inline JointStep rubbed(const JointParams& p, const JointState& old, Real us, Re
 	return now;
 }
 
-/// The same, where its slip lifts it: all at the end of the step, in which the pressure brings friction and friction takes slip. `flat` is what it does if it
-/// is not lifted. What it slid in breaking, or while it was open, lifts nothing; reversal takes nothing back.
+/// Friction of a broken joint that is closed, where its slip lifts it: all at the end of the step, in which the pressure brings friction and friction takes
+/// slip. `flat` is what it does if it is not lifted. What it slid in breaking, or while it was open, lifts nothing; reversal takes nothing back.
 inline JointStep dilated(const JointParams& p, const JointState& old, Real un, Real us, const JointStep& flat)
 {
 	if (flat.state.slipPlastic == old.slipPlastic) return flat;

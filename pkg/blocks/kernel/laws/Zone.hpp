@@ -100,7 +100,7 @@ template <Strain kind> inline ZoneForces zoneForces(const ZoneGradients& g, Real
 		 -volume * (pyx * g.g2x + pyy * g.g2y) };
 }
 
-/// The same for a stress whose axes need not be those of the strain: stresses in situ, or those of a rate. It is work-conjugate to the strain U - 1,
+/// Forces of a zone for a stress whose axes need not be those of the strain: stresses in situ, or those of a rate. It is work-conjugate to the strain U - 1,
 ///   P = R (sigma + kappa J),  J = [0 -1; 1 0],  kappa = ((sxx - syy) exy - sxy (exx - eyy)) / tr U:
 /// P:dF = sigma:dU for every dF, and P F^T is symmetric, so that a zone has no moment of its own.
 template <Strain kind> inline ZoneForces zoneForcesOfAnyAxes(const ZoneGradients& g, Real volume, const ZoneStress& t, const ZoneStrain& e)

@@ -109,7 +109,7 @@ struct BlockAssembly {
 
 	/// Other properties for a joint; what has broken stays broken.
 	void changeJoint(int joint, const JointParams&, const SofteningParams&);
-	/// ... its softening stays.
+	/// Other properties for a joint whose softening stays.
 	void changeJoint(int joint, const JointParams& p) { changeJoint(joint, p, joints.softeningOf(joint)); }
 
 	/// A joint's edges become a free contact: from here on the joint carries nothing.
@@ -127,7 +127,7 @@ struct BlockAssembly {
 	/// Computes again what follows from the rest: zone gradients and volumes, columns, sides, mobility. After loading.
 	void rebuild();
 
-	/// The same for joints alone.
+	/// Computes again what follows from the joints alone: their columns and sides.
 	void rebuildJoints();
 
 	/// inertia -> mobility, with zeros where motion is prescribed.
@@ -150,7 +150,7 @@ constexpr int releasedKind = -1, mixedKinds = -2;
 /// Whether the edges of a joint, which ran against each other when it was bonded, have turned by more than a right angle.
 bool edgesTurned(const BlockAssembly&, int joint);
 
-/// ... or have slid past each other. The law of a joint means nothing then.
+/// Whether the edges of a joint have turned so, or have slid past each other. The law of a joint means nothing then.
 bool edgesPassed(const BlockAssembly&, int joint);
 
 } // namespace blocks

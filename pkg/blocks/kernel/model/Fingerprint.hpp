@@ -8,7 +8,7 @@ namespace blocks {
 /// A number that is the same only for the same bits (FNV-1a of 64 bits over words, field by field).
 std::uint64_t fingerprint(const State&);
 
-/// ... of everything that is saved.
+/// The fingerprint of everything that is saved.
 std::uint64_t fingerprint(const BlockAssembly&);
 
 } // namespace blocks

@@ -146,7 +146,7 @@ struct Odometer {
 	// ---- what the velocities say since then, for any grid point and along either axis
 	int  steps     = 0; ///< since the paths were brought up to date
 	Real unseen    = 0; ///< it may have gone this far since then [m]
-	Real sinceLook = 0; ///< ... since neighbours were last looked for [m]
+	Real sinceLook = 0; ///< it may have gone this far since neighbours were last looked for [m]
 	Real fastest   = 0; ///< largest velocity in the last step [m/s]
 
 	/// By how much more two paths may add up to than they do [m].

@@ -9,7 +9,7 @@ namespace blocks {
 /// Energies that are booked step by step [J].
 struct Accounts {
 	Real damping        = 0; ///< dissipated by damping, up to the last time of forces
-	Real pendingDamping = 0; ///< ... in the half step since
+	Real pendingDamping = 0; ///< dissipated by damping in the half step since
 	Real friction       = 0; ///< dissipated by broken joints; dilation's work against the pressure is taken off
 	Real fracture       = 0; ///< set free in the steps in which contact points broke
 	Real scaling        = 0; ///< minus the kinetic energy that masses have brought which were scaled anew

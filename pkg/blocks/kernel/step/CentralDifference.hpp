@@ -11,7 +11,7 @@ namespace blocks {
 struct StepWork {
 	Real kinetic       = 0; ///< kinetic energy at the time of the forces, m v_before v_after / 2
 	Real dampingBefore = 0; ///< dissipated by damping up to the time of the forces since the middle of the step before
-	Real dampingAfter  = 0; ///< ... and from there to the middle of the step after
+	Real dampingAfter  = 0; ///< dissipated by damping from there to the middle of the step after
 
 	StepWork& operator+=(const StepWork& o)
 	{

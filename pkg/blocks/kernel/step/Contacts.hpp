@@ -11,7 +11,7 @@ void setContactJoint(BlockAssembly&, int contact, const JointParams&);
 /// Where the edges of all contacts are, their stresses and their forces; dt times the nodes' velocities is the last step's motion [s].
 void advanceContacts(BlockAssembly&, Real dt, int threads = 1);
 
-/// The same for one of them, with the same bits.
+/// Advances one contact, with the same bits.
 void advanceContact(BlockAssembly&, int contact, Real dt);
 
 /// Adds the contact forces on one block's grid points, in a fixed order.

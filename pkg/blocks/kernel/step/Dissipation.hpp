@@ -44,7 +44,7 @@ Real heldIn(const BlockAssembly&, int first, int count, const JointBatch&);
 /// Adds what the batches dissipated to the accounts, in their order.
 void bookDissipation(BlockAssembly&);
 
-/// The same, for all joints, where stresses came otherwise: from what they were to what they are.
+/// Adds what all joints dissipated where stresses came otherwise: from what they were to what they are.
 void bookDissipation(BlockAssembly&, const JointHistory& before);
 
 } // namespace blocks

@@ -6,8 +6,9 @@
 namespace blocks {
 namespace {
 
-	/// Edges from how far out of the facing half-circle are kept as candidates: -e_A.e_B above this. The turn that a block can
-	/// make while its vertices move by mayMove is smaller unless it has edges much shorter than its mean one; those see each other late.
+	/// Edges from how far out of the facing half-circle are kept as candidates: -e_A.e_B above this. Until they are looked for anew, vertices of a block
+	/// move by 2 mayMove mean edges at most. A block whose vertices do so turns by less than that over half a mean edge, 0.064. Two blocks turn against
+	/// each other by 0.13. What strains turn an edge by, whatever its length, comes to it: for the two blocks together 7 % are left.
 	constexpr Real turnedAway = -0.2;
 	/// Whether two edges touch, or can do so when their four vertices move by `margin` together.
 	bool mayTouch(const Vec2& a0, const Vec2& a1, const Vec2& b0, const Vec2& b1, Real margin)

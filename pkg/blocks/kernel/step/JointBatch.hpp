@@ -22,7 +22,7 @@ struct JointBatch {
 	// ---- stresses
 	alignas(64) Lane sigma[2], tau[2];        ///< [Pa]
 	alignas(64) std::int64_t beyond[size] {}; ///< contact points beyond a strength
-	std::int64_t pointsBeyond = 0;            ///< ... in all lanes
+	std::int64_t pointsBeyond = 0;            ///< contact points beyond a strength, in all lanes
 	int          asks[size], asking = 0;      ///< lanes that ask the law, and how many
 	JointForces  force;
 };

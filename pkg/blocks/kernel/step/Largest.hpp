@@ -7,7 +7,7 @@ namespace blocks {
 
 Real largest(const Real* values, int count);
 
-/// ... of the differences of two lists.
+/// The largest difference between two lists.
 Real farthest(const Real* now, const Real* then, int count);
 
 } // namespace blocks

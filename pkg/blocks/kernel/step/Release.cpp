@@ -33,7 +33,7 @@ namespace {
 		if (ends < 2) return Release::never; // until it breaks, which will be noticed
 		for (int i : { 2 * joint, 2 * joint + 1 }) {
 			if (a.state.sigma[i] > 0) return Release::later; // residual tension stays with the point law
-			// so does a joint that goes on dilating, and one that rests on ends raised by different amounts, which a free contact would level
+			// a joint that goes on dilating stays, too, and one that rests on ends raised by different amounts, which a free contact would level
 			if (a.state.sigma[i] < 0 && (p.tanDilation > 0 || a.state.uplift[2 * joint] != a.state.uplift[2 * joint + 1])
 			    && std::abs(a.state.slipPlastic[i]) < std::min(p.dilationLimitSlip, dilatesFor * 2 * a.joints.segments[joint].area / a.thickness))
 				return Release::later;

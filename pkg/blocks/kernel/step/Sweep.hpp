@@ -17,7 +17,7 @@ inline bool crosses(const BlockAssembly& a, int batch, const Part& part) { retur
 void beginForces(BlockAssembly&, const Part&);
 /// The forces of a batch of joints, on all their blocks.
 void addJointForces(BlockAssembly&, int batch, const JointForces&);
-/// ... on blocks of a part alone.
+/// The forces of a batch of joints on blocks of a part alone.
 void addJointForces(BlockAssembly&, int batch, const JointForces&, const Part&);
 /// The end of the piece of blocks that begins with `first`: so few that what belongs to them stays in the nearest cache.
 int pieceEnd(const BlockAssembly&, int first, int last);

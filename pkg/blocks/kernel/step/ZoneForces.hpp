@@ -22,7 +22,7 @@ constexpr int zoneBatch = 64;
 /// Strain of a zone in its own axes.
 ZoneStrain strainOf(const BlockAssembly&, int zone);
 
-/// The same with that of stresses in situ: what its stress follows from.
+/// Strain of a zone with that of stresses in situ: what its stress follows from.
 ZoneStrain elasticStrainOf(const BlockAssembly&, int zone);
 
 /// Stress of a zone in the axes of the plane, per present area [Pa].
