@@ -3,25 +3,56 @@
 import re
 import shutil
 import subprocess
-from pathlib import Path
+from graphlib import TopologicalSorter
+from pathlib import Path, PurePosixPath
 
 import pytest
 
 house = Path(__file__).resolve().parents[2]
+blocks = house / 'pkg/blocks'
+sources = sorted(blocks.rglob('*.[ch]*')) # .hpp, .cpp, and what else the language is written in
 includes = lambda path: re.findall(r'^\s*#\s*include\s*([<"][^>"]+[>"])', path.read_text(), re.M)
 
 
-@pytest.mark.parametrize('path', sorted((house / 'pkg/blocks/kernel').rglob('*.?pp')), ids=lambda path: path.name)
+@pytest.mark.parametrize('path', sorted((blocks / 'kernel').rglob('*.[ch]*')), ids=lambda path: path.name)
 def test_kernelKnowsNoYade(path):
 	yade = [name for name in includes(path) if re.match(r'["<](core|lib|pkg|py)/|[<"]boost/python|[<"]Python', name)]
 	assert not yade and 'namespace yade' not in path.read_text()
 
 
-def test_kernelKnowsNoAdapter():
-	adapters = {path.name for path in (house / 'pkg/blocks').glob('*.hpp')}
-	for path in (house / 'pkg/blocks/kernel').rglob('*.?pp'):
-		assert not adapters & {Path(name.strip('<>"')).name
-					for name in includes(path) if 'kernel/' not in name} - {p.name for p in path.parent.iterdir()}, path
+def rowsOfFolders():
+	"""The table 'Folders' of pkg/blocks/README.md: folder -> what stands in its last column."""
+	section = (blocks / 'README.md').read_text().split('\n## Folders\n')[1].split('\n## ')[0]
+	rows = re.findall(r'^\| `([^`]+)` \| .* \| ([^|`]+) \|$', section, re.M)
+	assert len(rows) == section.count('\n| `'), 'a row is not of the form | `folder` | what | may use |'
+	named = {Path(folder).name: folder for folder, _ in rows} # the last column calls folders by their last names
+	assert len(named) == len(rows), 'two folders of the same name'
+	return {folder: [] if mayUse == 'nothing' else [named[name] for name in mayUse.split(', ')] for folder, mayUse in rows}
+
+
+def foldersUsedBy(folder, rows):
+	"""Itself, those of its row, and those of their rows."""
+	found = [folder]
+	for one in found: # the list grows while it is gone through
+		found += [other for other in rows[one] if other not in found]
+	return found
+
+
+def test_theTableHasNoCycle():
+	TopologicalSorter(rowsOfFolders()).prepare() # CycleError where it goes round
+
+
+def test_everyFolderStandsInTheTable():
+	"""Neither a folder without a row nor a row without a folder."""
+	assert set(rowsOfFolders()) == {str(path.parent.relative_to(blocks)) for path in sources}
+
+
+@pytest.mark.parametrize('path', sources, ids=lambda path: str(path.relative_to(blocks)))
+def test_includesGoWhereTheTableSays(path):
+	"""An include in quotation marks or by another way round (<blocks/views/../...>) is refused too: it leads anywhere."""
+	mayUse = foldersUsedBy(str(path.parent.relative_to(blocks)), rowsOfFolders())
+	ours = [name for name in includes(path) if name[0] == '"' or 'blocks/' in name]
+	assert not [name for name in ours if not (name.startswith('<blocks/') and str(PurePosixPath(name[8:-1]).parent) in mayUse)]
 
 
 def test_noStrangeTopLevel():

@@ -1,6 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/engines/BlockLaw.hpp>
-#include <blocks/python/Numpy.hpp>
+#include <blocks/views/Numpy.hpp>
 
 namespace yade {
 

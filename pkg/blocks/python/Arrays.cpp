@@ -8,7 +8,7 @@
 #include <blocks/kernel/step/Joints.hpp>
 #include <blocks/kernel/step/ZoneForces.hpp>
 #include <blocks/python/ModelPython.hpp>
-#include <blocks/python/Numpy.hpp>
+#include <blocks/views/Numpy.hpp>
 #include <core/Omega.hpp>
 
 /// The model's arrays and what is measured on them.

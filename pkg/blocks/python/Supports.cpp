@@ -7,7 +7,7 @@
 #include <blocks/kernel/step/ViscousBoundaries.hpp>
 #include <blocks/python/Follow.hpp>
 #include <blocks/python/ModelPython.hpp>
-#include <blocks/python/Numpy.hpp>
+#include <blocks/views/Numpy.hpp>
 #include <core/BodyContainer.hpp>
 #include <core/Omega.hpp>
 #include <limits>
