@@ -7,8 +7,8 @@ from laboratory.instructions import Feature
 
 features = {
 	'general contact': Feature(
-		'FreeContacts ContactDetection ContactSearch Contacts ContactResults ContactViews BlockContacts EdgeContact EdgeContactLaw EdgeColumns EdgeBatch '
-		'EdgeDetection Boxes JointCorners RaisedCorners Release Paths Tunnelling',
+		'FreeContacts ContactDetection ContactSearch Contacts ContactResults ContactViews BlockContacts EdgeContact EdgeContactLaw EdgeColumns '
+		'EdgeBatch EdgeDetection Boxes JointCorners RaisedCorners Release Paths Tunnelling',
 		r'[cC]ontact(?! ?[pP])|[rR]eleased|\bgone\b|[oO]dometer|\bfollow\b|fastest' # contact points are those of joints
 	),
 	'rigid blocks': Feature('RigidBodies RigidBlocks RigidBlock', r'\b[rR]igid'),
