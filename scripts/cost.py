@@ -1,22 +1,33 @@
 # yade-blocks, GPL-2.0-or-later
-"""CPU time of a step of the couplet in tension, from 1,300 to 800,000 zones: scripts/cost.sh [sizes=2e-3,1e-3] [turns=3] [threads=1] [other=FOLDER].
+"""What a step costs, from 1,300 to 800,000 zones: scripts/cost.sh [sizes=3e-3,2e-3,1e-3] [turns=3] [threads=1] [other=FOLDER]. Some ten minutes.
 
-A mortar layer of Voronoi blocks (sqrt(area) = sizes [m], Lloyd 2) between two bricks whose zones are four times as large; the load is small, so nothing
-breaks. Bare, with general contact, and with energy accounts; set-up seconds and bytes a zone. other=FOLDER: a checkout of this project with its own build/
-(say an earlier commit), measured in turn with this one; then ratios are printed. Every number is a median over the turns; one turn takes as many steps as fit
-into a second. Leaves out/cost/cost.csv and cost.png."""
+Couplet in tension: a mortar layer of Voronoi blocks (sqrt(area) = sizes [m], Lloyd 2; sizes=all: 3e-3,2e-3,1e-3,3e-4,1.1e-4) between two bricks whose zones
+are four times as large. Prism: five layers of such blocks, from 1e-3 on only, for it has six times the zones; intact, and with a fifth of its points broken.
+The load is so small that nothing else breaks. Each with general contact off and on, with energy accounts off and on, and on as many threads as are listed
+(threads=1,2). Every number is a median over the turns, in which builds and threads take turns; one turn takes as many steps as fit into a second.
+
+- CPU and wall time of a step [us]; ns by zones and by contact points are CPU time on one thread and wall time on several, for threads that wait spin.
+- set-up: CPU seconds of building and the first three steps; B/zone: the most memory, less what YADE itself had when building began.
+- of first: share of the wall time on the first number of threads. of other: share of the cost in another checkout of this project with its own build/ (say an
+  earlier commit), other=FOLDER.
+- start: seconds from the command yade to the end of the first step, of a small couplet and of a script without engines.
+
+Leaves out/cost/cost.csv and cost.png."""
 import csv
 import json
 import os
 import statistics
 import subprocess
 import sys
+import time
+from itertools import product
 from pathlib import Path
 
 root = Path(__file__).resolve().parent.parent
-features = {
-	"bare": {}, "contact": {"contact": True}, "energy": {"energy": True}, "prism": {"contact": True, "broken": 0}, "broken": {"contact": True, "broken": 1}
-}
+folder = root / "out/cost"
+scenes = {"couplet": {}, "prism": {"broken": 0}, "broken": {"broken": 1}}
+allSizes, small = "3e-3,2e-3,1e-3,3e-4,1.1e-4", 3e-3 # [m]
+columns = "build scene contact energy size threads zones points us wall_us ns_zone ns_point start_s setup_s bytes_zone of_other of_first".split()
 
 scene = r'''
 import json, os, resource, sys, time
@@ -25,10 +36,15 @@ import yadeblocks
 from yade import *
 from yadeblocks.specimen import nodesWhere, rectangle
 wish = json.loads(os.environ["COST"])
-size, contact, broken = wish["size"], wish.get("contact", False), wish.get("broken")
+size, contact, broken = wish["size"], wish["contact"], wish.get("broken")
+def memory(): return int(open("/proc/self/statm").read().split()[1]) * resource.getpagesize()
 O.materials.append(BlockMat(label='unit', young=16.7e9, poisson=0.15, density=2000))
 O.materials.append(BlockMat(label='mortar', young=2.974e9, poisson=0.2, density=1250))
-start, model, length, low, high = time.process_time(), BlockModel(thickness=0.05), 0.1, 0.05, 0.065
+own, start = memory(), time.process_time()
+model, length, low, high = BlockModel(thickness=0.05), 0.1, 0.05, 0.065
+if broken and not hasattr(model, "setJoints"): # an old build, in which no fifth of the joints can be weak
+	print("COST null", flush=True)
+	os._exit(0)
 if broken is None: # the couplet
 	model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=size, lloyd=2, seed=1)
 	model.addRegion(rectangle(0, 0, length, low), 'unit', zoneSize=4 * size)
@@ -46,14 +62,17 @@ model.drive('top', nodesWhere(model, lambda x, y: y > 0.115 - 1e-9), 'y', veloci
 if broken: # so weak that they break as soon as they feel anything
 	model.setJoints(np.arange(0, model.contactCount // 2, 5), tension=1e-12, cohesion=1e-12, frictionAngle=1e-6)
 model.insert()
-O.dt, O.trackEnergy = 1, wish.get("energy", False)
+O.dt, O.trackEnergy = 1, wish["energy"]
 if flat: O.engines = [BlockLoop(contact=contact), BlockMotion(alpha=0.3)]
 else:
 	O.engines = ([BlockContacts(), InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0)] if contact else []) + [
 		InteractionLoop([Ig2_Block_Block_BlockGeom()], [Ip2_BlockMat_BlockMat_JointPhys(joints=joints)], [Law2_BlockGeom_JointPhys_MohrCoulomb()]),
 		BlockTimeStepper(), BlockForces(), BlockIntegrator(alpha=0.3)]
-O.run(3000 if broken else 3, True)
+O.run(1, True)
+first = time.monotonic() - float(os.environ["BEGUN"])
+O.run(2, True)
 setup = time.process_time() - start
+if broken: O.run(3000, True)
 def run(steps): # O.run(steps, wait=True) looks every 40 ms only
 	cpu, wall = time.process_time(), time.monotonic()
 	O.run(steps)
@@ -65,25 +84,86 @@ steps = max(steps, int(steps / once * 1))
 cpu, wall = run(steps)
 share = (model.pointStatus > 0).mean()
 assert 0.15 < share < 0.3 if broken else share == 0, share
-rss = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
-print("COST " + json.dumps(dict(us=1e6 * cpu / steps, wall_us=1e6 * wall / steps, setup_s=setup, zones=model.zoneCount, points=model.contactCount, rss=rss)))
+most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+print("COST " + json.dumps(dict(us=1e6 * cpu / steps, wall_us=1e6 * wall / steps, start_s=first, setup_s=setup, zones=model.zoneCount,
+                                points=model.contactCount, bytes_zone=(most - own) / model.zoneCount)))
+'''
+empty = r'''
+import json, os, time
+from yade import *
+O.run(1, True)
+print("COST " + json.dumps(dict(start_s=time.monotonic() - float(os.environ["BEGUN"]))))
 '''
 
 
-def measure(folder, threads, **wish):
-	"""One run of the scene with the plugin of a checkout."""
-	environment = dict(
-		os.environ,
-		COST=json.dumps(wish),
-		PYTHONPATH=str(folder / "py"),
-		YADEBLOCKS_PLUGIN=str(folder / "build/libyadeblocks.so"),
-		GOMP_SPINCOUNT="20000" # as scripts/run.sh
-	)
-	script = root / "out/cost/scene.py"
+def measure(checkout, threads, **wish):
+	"""One run of the scene with the plugin of a checkout; None if it is too old for it. Without a checkout: of YADE itself, with nothing to do."""
+	own = dict(PYTHONPATH=str(checkout / "py"), YADEBLOCKS_PLUGIN=str(checkout / "build/libyadeblocks.so")) if checkout else {}
+	script = folder / ("scene.py" if checkout else "empty.py")
+	# BEGUN is on the clock of the whole machine; spinning as in scripts/run.sh
+	environment = dict(os.environ, **own, COST=json.dumps(wish), GOMP_SPINCOUNT="20000", BEGUN=str(time.monotonic()))
 	run = subprocess.run(["yade", "-n", "-x", "-j", str(threads), str(script)], env=environment, capture_output=True, text=True)
 	lines = [line for line in run.stdout.splitlines() if line.startswith("COST ")]
-	if not lines: raise SystemExit(f"cost: the run with {folder} failed:\n{run.stdout[-1500:]}{run.stderr[-1500:]}")
+	if not lines: raise SystemExit(f"cost: the run with {checkout or 'YADE alone'} failed, {wish}:\n{run.stdout[-1500:]}{run.stderr[-1500:]}")
 	return json.loads(lines[0][5:])
+
+
+def cost(run, threads):
+	"""CPU time of a step on one thread, wall time on several [us]."""
+	return run["us" if threads == 1 else "wall_us"]
+
+
+def medians(turns):
+	"""A row for every build and number of threads, of {(build, threads): a run every turn}."""
+	rows, first = [], next(iter(turns))[1]
+	ratio = lambda mine, others: statistics.median(a / b for a, b in zip(mine, others))
+	for (build, threads), runs in turns.items():
+		if None in runs: continue
+		row = dict(build=build, threads=threads, **{key: statistics.median(run[key] for run in runs) for key in runs[0]})
+		row.update(ns_zone=1e3 * cost(row, threads) / row["zones"], ns_point=1e3 * cost(row, threads) / row["points"])
+		others = turns.get(("other", threads), [None])
+		if build == "this" and None not in others:
+			row["of_other"] = ratio([cost(run, threads) for run in runs], [cost(run, threads) for run in others])
+		if threads != first: row["of_first"] = ratio([run["wall_us"] for run in runs], [run["wall_us"] for run in turns[build, first]])
+		rows.append(row)
+	return rows
+
+
+def startSeconds(builds, turns):
+	"""A row for YADE and every build: from the command to the end of the first step."""
+	runs = {"yade": [], **{build: [] for build in builds}}
+	measure(None, 1) # the first one reads YADE from the disk
+	for _ in range(turns):
+		for build in runs:
+			runs[build].append(measure(builds.get(build), 1, size=small, contact=False, energy=False))
+	median = lambda build: statistics.median(run["start_s"] for run in runs[build])
+	return [dict(build=build, scene="start", size=small, start_s=median(build)) for build in runs]
+
+
+def show(row):
+	ratios = "".join(f"{row[key]:9.2f}" if key in row else "        -" for key in ("of_other", "of_first"))
+	print(
+		f"{row['build']:6}{row['scene']:8}{row['contact']:>8}{row['energy']:>7}{row['threads']:8}{row['zones']:9.0f}{row['points']:9.0f}"
+		f"{row['us']:10.1f}{row['wall_us']:10.1f}{row['ns_zone']:9.1f}{row['ns_point']:10.1f}{row['setup_s']:10.3f}{row['bytes_zone']:8.0f}{ratios}",
+		flush=True
+	)
+
+
+def keep(rows):
+	with open(folder / "cost.csv", "w", newline="") as file:
+		writer = csv.DictWriter(file, columns)
+		writer.writeheader()
+		writer.writerows(rows)
+
+
+def numbers(keys, key, kind):
+	try:
+		found = [kind(word) for word in keys[key].split(",")]
+	except ValueError:
+		found = [0]
+	if not all(0 < number < float("inf") for number in found):
+		raise SystemExit(f"cost: {key} must be {'whole ' if kind is int else ''}numbers > 0, got '{keys[key]}'")
+	return found
 
 
 def main(arguments):
@@ -92,61 +172,53 @@ def main(arguments):
 		key, sign, value = argument.partition("=")
 		if not sign or key not in keys: raise SystemExit(f"cost: '{argument}' is not KEY=VALUE with one of the keys {' '.join(keys)}")
 		keys[key] = value
+	if keys["sizes"] == "all": keys["sizes"] = allSizes
+	sizes, threads, turns = numbers(keys, "sizes", float), numbers(keys, "threads", int), numbers(keys, "turns", int)[0]
 	builds = {"this": root, **({"other": Path(keys["other"]).resolve()} if keys["other"] else {})}
-	folder = root / "out/cost"
 	folder.mkdir(parents=True, exist_ok=True)
 	(folder / "scene.py").write_text(scene)
-	rows = []
-	for size in map(float, keys["sizes"].split(",")):
-		for feature, wish in features.items():
-			if "broken" in wish and size < 1e-3: continue # a prism has six times the zones of a couplet
-			# before joints had properties of their own, no fifth of them could be weak
-			able = {name: checkout for name, checkout in builds.items() if name == "this" or not wish.get("broken")}
-			turns = {name: [] for name in able}
-			for _ in range(int(keys["turns"])):
-				for name, checkout in able.items():
-					turns[name].append(measure(checkout, int(keys["threads"]), size=size, **wish))
-			for name, runs in turns.items():
-				median = {key: statistics.median(run[key] for run in runs) for key in runs[0]}
-				rows.append(
-					dict(
-						build=name, feature=feature, size=size, threads=int(keys["threads"]),
-						ns_zone=1e3 * median["us"] / median["zones"], **median
-					)
-				)
-			if len(able) == 2:
-				ratios = [a["us"] / b["us"] for a, b in zip(turns["this"], turns["other"])]
-				rows[-2]["ratio"] = statistics.median(ratios)
-			for row in rows[-len(able):]:
-				print(
-					f"{row['build']:6} {feature:8} {row['zones']:8.0f} zones {row['us']:10.1f} us a step,"
-					f" wall {row['wall_us']:10.1f}, {row['ns_zone']:6.1f} ns a zone, set-up {row['setup_s']:5.2f} s,"
-					f" {row['rss'] / row['zones']:8.0f} bytes a zone with YADE's own" +
-					(f", {row['ratio']:.2f} of the other" if "ratio" in row else ""), flush=True
-				)
-	with open(folder / "cost.csv", "w", newline="") as file:
-		writer = csv.DictWriter(file, ["build", "feature", "size", "threads", "zones", "points", "us", "wall_us", "ns_zone", "setup_s", "rss", "ratio"])
-		writer.writeheader()
-		writer.writerows(rows)
-	draw(rows, folder / "cost.png")
+	(folder / "empty.py").write_text(empty)
+	rows = startSeconds(builds, turns)
+	print("start: seconds from the command to the end of the first step: " + ", ".join(f"{row['build']} {row['start_s']:.2f}" for row in rows))
+	print("build scene    contact energy threads    zones   points    CPU us   wall us  ns/zone  ns/point  set-up s  B/zone of other of first")
+	for size, (name, wish), contact, energy in product(sizes, scenes.items(), (False, True), (False, True)):
+		if "broken" in wish and size < 1e-3: continue # a prism has six times the zones of a couplet
+		runs = {(build, count): [] for build in builds for count in threads}
+		for _ in range(turns):
+			for build, count in runs:
+				runs[build, count].append(measure(builds[build], count, size=size, contact=contact, energy=energy, **wish))
+		for row in medians(runs):
+			row.update(scene=name, contact="on" if contact else "off", energy="on" if energy else "off", size=size)
+			show(row)
+			rows.append(row)
+		keep(rows)
+	draw([row for row in rows if row["scene"] != "start"], threads)
 
 
-def draw(rows, path):
+def draw(rows, threads):
+	"""Cost over size, a panel for every number of threads: scenes by colour, features by line, builds by mark."""
 	import matplotlib
 	matplotlib.use("Agg")
 	import matplotlib.pyplot as plt
-	figure, axes = plt.subplots(figsize=(7, 5))
-	for build in dict.fromkeys(row["build"] for row in rows):
-		for feature in features:
-			some = [row for row in rows if row["build"] == build and row["feature"] == feature]
+	figure, panels = plt.subplots(1, len(threads), figsize=(1 + 5 * len(threads), 5), sharey=True, squeeze=False)
+	colours, lines = dict(zip(scenes, ("C0", "C2", "C3"))), {("off", "off"): "-", ("on", "off"): "--", ("off", "on"): ":", ("on", "on"): "-."}
+	for axes, count in zip(panels[0], threads):
+		for build, (name, colour), (features, line) in product(("this", "other"), colours.items(), lines.items()):
+			some = [
+				row for row in rows
+				if (row["build"], row["threads"], row["scene"], row["contact"], row["energy"]) == (build, count, name, *features)
+			]
 			if not some: continue
-			axes.loglog([row["zones"] for row in some], [row["ns_zone"] for row in some], "o-" if build == "this" else "s--",
-					label=f"{build}: {feature}")
-	axes.set_xlabel("zones")
-	axes.set_ylabel("CPU time of a step [ns a zone]")
-	axes.grid(True, which="both", alpha=0.3)
-	axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1)) # beside the curves
-	figure.savefig(path, dpi=120, bbox_inches="tight")
+			what = [name, *(word for word, state in zip(("contact", "energy"), features) if state == "on")]
+			axes.loglog([row["zones"] for row in some], [row["ns_zone"] for row in some], line, color=colour,
+					marker="o" if build == "this" else "s", markerfacecolor=colour if build == "this" else "none",
+					label=" + ".join(what) + ("" if build == "this" else ", other"))
+		axes.set_xlabel("zones")
+		axes.set_title("one thread, CPU time" if count == 1 else f"{count} threads, wall time")
+		axes.grid(True, which="both", alpha=0.3)
+	panels[0][0].set_ylabel("cost of a step [ns a zone]")
+	panels[0][-1].legend(loc="upper left", bbox_to_anchor=(1.02, 1)) # beside the curves
+	figure.savefig(folder / "cost.png", dpi=120, bbox_inches="tight")
 
 
 main(sys.argv[1:])

@@ -18,10 +18,14 @@ for number in "$count" "$seed"; do
 	[[ "$number" =~ ^[0-9]+$ ]] || { echo "count and seed must be whole numbers, got '$number'" >&2; exit 2; }
 done
 
-scripts/setup.sh --brief
 case "$part" in
-	geometry) build/tests/geometry_fuzz "$count" "$seed" ;;
-	scenes) build/tests/scene_fuzz "$count" "$seed" ;;
-	softening) build/tests/scene_fuzz "$count" "$seed" 0 soften ;; # the same scenes with joints that soften
+	geometry) program=geometry_fuzz more= ;;
+	scenes) program=scene_fuzz more= ;;
+	softening) program=scene_fuzz more="0 soften" ;; # the same scenes with joints that soften
 	*) echo "part must be geometry, scenes or softening, got '$part'" >&2; exit 2 ;;
 esac
+
+scripts/setup.sh --brief libgtest-dev
+cmake -S . -B build -DBUILD_TESTING=ON > /dev/null # may have been built without tests
+cmake --build build --target $program
+exec build/tests/$program "$count" "$seed" $more

@@ -30,7 +30,8 @@ from yadeblocks.specimen import Gauge, nodesWhere, rectangle
 
 house = Path(yadeblocks.__file__).resolve().parents[2] # __file__ is YADE itself
 sys.path.insert(0, str(house / 'scripts'))
-from laboratory.instructions import Feature, Marks, readProfiles, sourceLines
+from laboratory.features import features
+from laboratory.instructions import Marks, readProfiles, sourceLines
 
 p = scenario.parameters({'part': '', 'scene': 'tension', 'quick': True}, {
 	'part': scenario.Rule(lambda part: part in ('states', 'times', 'counts', 'threads', 'table'), 'is set by scripts/price.sh, which starts this script'),
@@ -200,21 +201,6 @@ rows = [
 rows.append(Row('servo', lambda model: addBehindForces(BlockServo(groups=[model.groups[-1]], floor=1))))
 if p.scene == 'tension': rows += [Row('edges in %d joints' % n, None, state='tension-%d' % n) for n in segments]
 if p.scene == 'crushed': rows = [row for row in rows if 'general contact' not in row.name]
-
-features = { # where their code is
-	'general contact': Feature(r'(Free|Edge|Block)Contacts?\.', r'contacts\b|->contact\b|contactsVersion|released\(\)|Which::'),
-	'rigid blocks': Feature(r'Rigid(Bodies|Blocks?)\.', r'\b[rR]igid'),
-	'dilation': Feature(lines='[dD]ilation|uplift'),
-	'residual friction': Feature(lines='[rR]esidual'),
-	'joints that soften': Feature(r'Softening\w*\.', r'[sS]often|anyCap|beyondCap'),
-	'small strain': Feature(lines='smallStrain|Strain::small'),
-	'dead loads': Feature(lines=r'\bload\b|loadWork'),
-	'adaptive damping': Feature(lines='adaptive|viscous'),
-	'stability watch': Feature(r'StabilityWatch\.', r'watch'),
-	'energy accounts': Feature(r'Energy\.', 'trackEnergy|account|dissipation'),
-	'crack recorder': Feature(r'BlockCrackRecorder\.'),
-	'servo': Feature(r'BlockServo\.', 'throttle'),
-}
 
 bare = Row('bare', None)
 

@@ -48,7 +48,7 @@ class Profile:
 		unknown files. An upper bound: a line that speaks of a feature may do something else too."""
 		count = 0
 		for (_, file, line), cost in self.places.items():
-			if feature.files and re.search(feature.files, file): count += cost
+			if Path(file).stem in feature.files: count += cost
 			elif feature.lines:
 				text = source(file)
 				if 0 < line <= len(text) and re.search(feature.lines, text[line - 1]): count += cost
@@ -56,9 +56,10 @@ class Profile:
 
 
 class Feature:
-	"""Where a feature's code is: regular expressions for its own source files, and for lines elsewhere."""
-	def __init__(self, files=None, lines=None):
-		self.files, self.lines = files, lines
+	"""Where a feature's code is: the names of its own source files, without their ends, and a regular expression for lines elsewhere,
+	alternatives without groups."""
+	def __init__(self, files='', lines=''):
+		self.files, self.lines = set(files.split()), lines
 
 
 def sourceLines(root):

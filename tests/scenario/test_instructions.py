@@ -7,6 +7,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / 'scripts'))
 from laboratory import instructions
+from laboratory.features import features, stale
 
 profile = """# callgrind format
 version: 1
@@ -63,10 +64,22 @@ def test_namedProfilesOnly(files):
 def test_featuresByFileAndLine(files):
 	bare, source = instructions.readProfiles(files / 'run')['bare'], instructions.sourceLines(files)
 	count = lambda **where: bare.inFeature(instructions.Feature(**where), source)
-	assert count(files=r'Energy\.') == 30
+	assert count(files='Energy') == 30
+	assert count(files='Ener') == 0
 	assert count(lines='dilation') == 100
-	assert count(files=r'Energy\.', lines='ks') == 70
+	assert count(files='Energy', lines='ks') == 70
 	assert count(lines='friction') == 0
+
+
+def test_featuresAreWhereTheyAreLookedFor():
+	"""A file that is renamed would make the price of what is off too small, without a word."""
+	assert stale(features, Path(__file__).resolve().parents[2] / 'pkg/blocks') == []
+
+
+def test_staleIsWhatNobodyHas(files):
+	(files / 'Energy.hpp').write_text('kept\n')
+	some = {'energy': instructions.Feature('Energy Gone', 'tau|kept|nowhere')}
+	assert stale(some, files) == ['energy: Gone', 'energy: kept', 'energy: nowhere'] # 'kept' stands in its own file only
 
 
 def test_otherFormatsAreRefused():
