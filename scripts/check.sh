@@ -41,7 +41,7 @@ for kind in "${kinds[@]}"; do
 		;;
 	narrow)
 		build narrow yadeblocks -DBLOCKS_WIDE=OFF
-		ctest --test-dir build/check-narrow -R '^yade.test_step$' --output-on-failure
+		ctest --test-dir build/check-narrow -R '^yade.test_(step|threads)$' --output-on-failure
 		;;
 	address)
 		build address kernel_tests -DCMAKE_BUILD_TYPE=Checked -DCMAKE_CXX_FLAGS_CHECKED="-O1" -DBLOCKS_WIDE=OFF -DBLOCKS_SANITIZE=address,undefined
