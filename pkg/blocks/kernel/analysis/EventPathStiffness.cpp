@@ -77,6 +77,7 @@ namespace {
 	/// Opening and slip of a point by two motions side by side: a matrix of rows opening and slip.
 	Eigen::Matrix<Real, 2, 2> ofPoint(const LinearPoint& p, const std::vector<Real>& x)
 	{
+		if (x.empty()) return Eigen::Matrix<Real, 2, 2>::Zero(); // nothing is free to move
 		Eigen::Matrix<Real, 2, 2> own;
 		own << times(p, p.n, &x[0], 2), times(p, p.n, &x[1], 2), times(p, p.t, &x[0], 2), times(p, p.t, &x[1], 2);
 		return own;
