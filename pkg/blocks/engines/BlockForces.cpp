@@ -28,12 +28,12 @@ void BlockForces::computeForces(BlockModel& model, int threads)
 	before.take(a.state);
 }
 
-void BlockForces::lookAtEngines(BlockModel& model)
+void BlockForces::lookAtEngines(BlockModel& model, int threads)
 {
 	const bool look = !looked || scene->iter % askPeriod == 0, rigid = !model.assembly.state.rigid.empty();
 	if (look) {
 		requireEngines(scene, model, stepsJoints());
-		requireUntouched(scene, model, threadsFor(model, ompThreads));
+		requireUntouched(scene, model, threads);
 	}
 	if (!look && !rigid) return;
 	noteFreedom(scene, model);
@@ -53,9 +53,10 @@ void BlockForces::lookAtEngines(BlockModel& model)
 
 void BlockForces::step(BlockModel& model)
 {
-	model.requireBodies(scene, threadsFor(model, ompThreads));
-	lookAtEngines(model);
-	computeForces(model, threadsFor(model, ompThreads));
+	const int threads = threadsFor(model, ompThreads);
+	model.requireBodies(scene, threads);
+	lookAtEngines(model, threads);
+	computeForces(model, threads);
 	blocks::BlockAssembly& a = model.assembly;
 	if (!a.state.rigid.empty()) addRigidForces(scene, model);
 	model.forcesAt = scene->iter;

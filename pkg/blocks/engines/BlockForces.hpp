@@ -25,7 +25,7 @@ protected:
 	virtual bool stepsJoints() const { return false; }
 
 private:
-	void lookAtEngines(BlockModel&);
+	void lookAtEngines(BlockModel&, int threads);
 
 	int  frictionId = -1, fractureId = -1, modeIId = -1, modeIIId = -1, capId = -1;
 	bool saidSnapped = false;

@@ -4,36 +4,29 @@
 #include <limits>
 
 namespace blocks {
-namespace {
-
-	Corners plain(const FourPoints& p) { return { { { p[0].x(), p[0].y() }, { p[1].x(), p[1].y() }, { p[2].x(), p[2].y() }, { p[3].x(), p[3].y() } } }; }
-
-	FourPoints points(const Corners& c) { return { c[0], c[1], c[2], c[3] }; }
-
-} // namespace
 
 FourPoints raised(const FourPoints& p, Real uplift)
 {
-	Corners c = plain(p);
+	Corners c = corners(p);
 	raiseEdge(c, uplift);
 	return points(c);
 }
 
 FourPoints raisedVelocity(const FourPoints& p, Real uplift, const FourPoints& velocity)
 {
-	Corners v = plain(velocity);
-	raiseVelocity(plain(p), uplift, v);
+	Corners v = corners(velocity);
+	raiseVelocity(corners(p), uplift, v);
 	return points(v);
 }
 
 void lowerForces(const FourPoints& p, Real uplift, FourPoints& force)
 {
-	Corners f = plain(force);
-	lowerEdgeForces(plain(p), uplift, f);
+	Corners f = corners(force);
+	lowerEdgeForces(corners(p), uplift, f);
 	force = points(f);
 }
 
-EdgeGeometry edgeGeometry(const FourPoints& p, const EdgeShape& shape) { return geometryOfEdges(plain(p), shape); }
+EdgeGeometry edgeGeometry(const FourPoints& p, const EdgeShape& shape) { return geometryOfEdges(corners(p), shape); }
 
 Real freeDistance(const FourPoints& p, const EdgeShape& shape)
 {
@@ -112,11 +105,11 @@ Real edgePotential(const EdgeGeometry& g) { return potentialOfEdges(g); }
 
 void addNormalForces(const FourPoints& p, const EdgeShape& shape, const EdgeGeometry& g, Real scale, FourPoints& force)
 {
-	Corners sum = plain(force);
-	pushEdges(plain(p), shape, g, scale, sum);
+	Corners sum = corners(force);
+	pushEdges(corners(p), shape, g, scale, sum);
 	force = points(sum);
 }
 
-EdgeEnd edgeEnd(const FourPoints& p, const EdgeGeometry& g, int k) { return k == 0 ? endOfEdges<0>(plain(p), g) : endOfEdges<1>(plain(p), g); }
+EdgeEnd edgeEnd(const FourPoints& p, const EdgeGeometry& g, int k) { return k == 0 ? endOfEdges<0>(corners(p), g) : endOfEdges<1>(corners(p), g); }
 
 } // namespace blocks

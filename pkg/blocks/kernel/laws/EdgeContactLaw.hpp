@@ -28,6 +28,9 @@ ALWAYS XY& operator-=(XY& a, const XY& b)
 ALWAYS Real dot(const XY& a, const XY& b) { return a.x * b.x + a.y * b.y; }
 ALWAYS Real cross(const XY& a, const XY& b) { return a.x * b.y - a.y * b.x; }
 
+inline FourPoints points(const Corners& c) { return { c[0], c[1], c[2], c[3] }; }
+inline Corners corners(const FourPoints& p) { return { { { p[0].x(), p[0].y() }, { p[1].x(), p[1].y() }, { p[2].x(), p[2].y() }, { p[3].x(), p[3].y() } } }; }
+
 constexpr Real wholeUpTo = 0.04, goneFrom = 6; ///< q between which a contact fades out
 constexpr Real depthBlend = 0.25;              ///< r/(dA + dB)
 

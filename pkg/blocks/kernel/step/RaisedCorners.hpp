@@ -6,9 +6,6 @@
 /// Where the edges of a pair act.
 namespace blocks {
 
-inline FourPoints points(const Corners& c) { return { c[0], c[1], c[2], c[3] }; }
-inline Corners corners(const FourPoints& p) { return { { { p[0].x(), p[0].y() }, { p[1].x(), p[1].y() }, { p[2].x(), p[2].y() }, { p[3].x(), p[3].y() } } }; }
-
 /// The corners of what touches, relative to where a0 was without stress, so that they are exact far from the origin too [m].
 ALWAYS Corners raisedCorners(const BlockAssembly& a, const EdgePair& e)
 {

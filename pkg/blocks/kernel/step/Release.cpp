@@ -69,12 +69,12 @@ namespace {
 		return normalEnergyBefore(a, c, e, dt);
 	}
 
-	/// Lowers edge A of a pair until the two only touched a step ago. Where that is needs no stiffness, which YADE's InteractionLoop brings later.
-	void lowerToTouch(const BlockAssembly& a, const FreeContact& c, EdgePair& e, Real dt)
+	/// Lowers edge A of a pair until the two only touched a step ago. Any stiffness does; YADE's InteractionLoop brings that of the contact later.
+	void lowerToTouch(const BlockAssembly& a, EdgePair& e, Real dt)
 	{
-		FreeContact stiff;
-		stiff.joint.kn = c.joint.kn > 0 ? c.joint.kn : 1;
-		lower(a, stiff, e, 0, dt);
+		FreeContact any;
+		any.joint.kn = 1;
+		lower(a, any, e, 0, dt);
 	}
 
 	/// Looks for the edge pairs of a contact. Those that it did not have are lowered until they only touch.
@@ -85,7 +85,7 @@ namespace {
 			known.push_back(e.edge);
 		detectEdges(a, c);
 		for (EdgePair& e : c.edges)
-			if (!std::binary_search(known.begin(), known.end(), e.edge)) lowerToTouch(a, c, e, dt);
+			if (!std::binary_search(known.begin(), known.end(), e.edge)) lowerToTouch(a, e, dt);
 	}
 
 	/// Turns a broken joint into a free edge pair, which takes over its slip. With the joint the other edges of the two blocks come to act, too. They may
@@ -193,7 +193,7 @@ void loosen(BlockAssembly& a, Real dt)
 		FreeContact& made = a.state.contacts[contactOf(a, keys[i][0], keys[i][1])];
 		made.edges        = std::move(edges[i]);
 		for (EdgePair& e : made.edges)
-			lowerToTouch(a, made, e, dt);
+			lowerToTouch(a, e, dt);
 		forgetActive(made);
 	}
 	placeForces(a);
