@@ -7,7 +7,7 @@ from laboratory.instructions import Feature
 
 features = {
 	'general contact': Feature(
-		'FreeContacts ContactDetection ContactSearch Contacts ContactResults ContactViews BlockContacts EdgeContact EdgeContactLaw EdgeColumns '
+		'FreeContacts JointDetection ContactSearch Contacts ContactResults ContactViews BlockContacts EdgeContact EdgeContactLaw EdgeColumns '
 		'EdgeBatch EdgeDetection Boxes JointCorners RaisedCorners Release Paths Tunnelling',
 		r'[cC]ontact(?! ?[pP])|[rR]eleased|\bgone\b|[oO]dometer|\bfollow\b|fastest' # contact points are those of joints
 	),

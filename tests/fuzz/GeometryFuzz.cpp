@@ -9,9 +9,10 @@
 //   - overlapDepth: a region is in itself, its plugs are not in it.
 // Refusals count as explained where the words say what cannot be done. Everything else is unexplained, is printed with its case, and makes the program fail.
 
+#include <blocks/kernel/geometry/PolygonRules.hpp>
 #include <blocks/kernel/geometry/Tessellation.hpp>
 #include <blocks/kernel/geometry/Zoning.hpp>
-#include <blocks/kernel/model/ContactDetection.hpp>
+#include <blocks/kernel/model/JointDetection.hpp>
 
 #include <algorithm>
 #include <cctype>

@@ -17,7 +17,7 @@
 #include <blocks/kernel/analysis/Energy.hpp>
 #include <blocks/kernel/analysis/StabilityWatch.hpp>
 #include <blocks/kernel/geometry/Tessellation.hpp>
-#include <blocks/kernel/model/ContactDetection.hpp>
+#include <blocks/kernel/model/JointDetection.hpp>
 #include <blocks/kernel/step/ContactResults.hpp>
 #include <blocks/kernel/step/Loads.hpp>
 #include <blocks/kernel/step/RigidBlocks.hpp>

@@ -2,7 +2,7 @@
 #pragma once
 #include <blocks/kernel/analysis/Energy.hpp>
 #include <blocks/kernel/geometry/Tessellation.hpp>
-#include <blocks/kernel/model/ContactDetection.hpp>
+#include <blocks/kernel/model/JointDetection.hpp>
 #include <blocks/kernel/step/Loads.hpp>
 #include <blocks/kernel/step/Step.hpp>
 #include <blocks/kernel/step/TimeStep.hpp>

@@ -29,14 +29,6 @@ struct Polygon {
 
 inline Real cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-inline Real signedArea(const Ring& ring)
-{
-	Real twice = 0;
-	for (size_t i = 0, n = ring.size(); i < n; ++i)
-		twice += cross(ring[i] - ring[0], ring[(i + 1) % n] - ring[0]);
-	return twice / 2;
-}
-
 /// A number as a message should show it: all 17 digits unless fewer are asked for, no zeros that were not meant, and a decimal point whatever
 /// the locale.
 inline std::string shown(Real value, int digits = 17)

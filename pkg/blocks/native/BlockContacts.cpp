@@ -1,4 +1,5 @@
 // yade-blocks, GPL-2.0-or-later
+#include <blocks/kernel/model/Outline.hpp>
 #include <blocks/kernel/step/ContactSearch.hpp>
 #include <blocks/native/BlockContacts.hpp>
 #include <blocks/views/Block.hpp>

@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/kernel/geometry/EdgeDivision.hpp>
 #include <blocks/kernel/geometry/Polygon.hpp>
+#include <blocks/kernel/geometry/PolygonRules.hpp>
 #include <blocks/kernel/geometry/Tessellation.hpp>
 #include <blocks/kernel/geometry/Zoning.hpp>
 #include <blocks/kernel/model/Outline.hpp>

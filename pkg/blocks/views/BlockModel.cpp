@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <blocks/kernel/Parallel.hpp>
 #include <blocks/kernel/geometry/Polygon.hpp>
-#include <blocks/kernel/model/ContactDetection.hpp>
+#include <blocks/kernel/model/JointDetection.hpp>
 #include <blocks/kernel/step/TimeStep.hpp>
 #include <blocks/views/BlockModel.hpp>
 #include <blocks/views/BlockState.hpp>

@@ -1,9 +1,14 @@
 // yade-blocks, GPL-2.0-or-later
+#include <Rings.hpp>
 #include <Specimens.hpp>
 #include <algorithm>
 #include <blocks/kernel/geometry/EdgeDivision.hpp>
+#include <blocks/kernel/geometry/Zoning.hpp>
+#include <gtest/gtest.h>
+#include <random>
 
 using namespace specimens;
+using rings::rectangle, rings::reversed;
 
 TEST(EdgeDivision, NeighboursGetTheSameBits)
 {
@@ -63,4 +68,28 @@ TEST(EdgeDivision, BendingStiffnessFallsTowardsThatOfTheEdge)
 		const Real edge = 1e9 * 0.7 * std::pow(0.8, 3) / 12;
 		EXPECT_NEAR(moment / angle, edge * (1 + 2. / (parts * parts)), 1e-5 * edge) << parts;
 	}
+}
+
+TEST(EdgeDivision, NoEdgeIsLongerThanWanted)
+{
+	const Polygon frame { rectangle(0, 0, 3, 2), { reversed(rectangle(1, 0.5, 2, 1.5)) } };
+	const Polygon fine = divided(frame, 0.5);
+	EXPECT_EQ(fine.outer.size(), 20u);
+	EXPECT_EQ(fine.holes[0].size(), 8u);
+	EXPECT_EQ(signedArea(fine), 5);
+	EXPECT_EQ(divided(frame, 0.49).outer.size(), 7u + 5 + 7 + 5);
+	EXPECT_EQ(divided(frame, 10).outer, frame.outer);
+	EXPECT_EQ(partsOf(3 * 0.1, 0.1), 3); // 4e-16 more than three times as long
+}
+
+TEST(PointsOnEdges, areInsertedInOrder)
+{
+	const Ring triangle = { { 0, 0 }, { 2, 0 }, { 0, 1 } };
+	const Ring out      = withPointsOnEdges(
+                triangle, { { 1.5, 0 }, { 0.5, 1e-7 }, { 1, 0.5 }, { 0, 0.25 }, { 0, 0.5 }, { 3, 0 }, { -1, 0 }, { 1, 0.2 }, { 1.5, 0 }, { 2, 1e-7 } }, 1e-6);
+	const Ring expected = { { 0, 0 }, { 0.5, 1e-7 }, { 1.5, 0 }, { 2, 0 }, { 1, 0.5 }, { 0, 1 }, { 0, 0.5 }, { 0, 0.25 } };
+	EXPECT_EQ(out, expected); // the points' own bits; not those beyond an edge's ends, off it, at a vertex, or twice
+	EXPECT_EQ(withPointsOnEdges(triangle, {}, 1e-6), triangle);
+	EXPECT_THROW(withPointsOnEdges(triangle, {}, -1), std::invalid_argument);
+	EXPECT_THROW(withPointsOnEdges(triangle, {}, std::nan("")), std::invalid_argument);
 }

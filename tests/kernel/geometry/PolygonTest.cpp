@@ -1,19 +1,15 @@
 // yade-blocks, GPL-2.0-or-later
-
+#include <Rings.hpp>
 #include <blocks/kernel/geometry/Polygon.hpp>
+#include <blocks/kernel/geometry/PolygonRules.hpp>
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-using namespace blocks;
+using namespace rings;
 
 namespace {
-
-constexpr Real eps = std::numeric_limits<Real>::epsilon();
-
-Ring rectangle(Real x0, Real y0, Real x1, Real y1) { return { { x0, y0 }, { x1, y0 }, { x1, y1 }, { x0, y1 } }; }
-Ring reversed(Ring ring) { return { ring.rbegin(), ring.rend() }; }
 
 } // namespace
 
@@ -96,18 +92,6 @@ TEST(Polygon, HolesMayRunEitherWay)
 	EXPECT_EQ(holesClockwise(frame).holes[0], frame.holes[0]);
 }
 
-TEST(Polygon, DividedEdges)
-{
-	const Polygon frame { rectangle(0, 0, 3, 2), { reversed(rectangle(1, 0.5, 2, 1.5)) } };
-	const Polygon fine = divided(frame, 0.5);
-	EXPECT_EQ(fine.outer.size(), 20u);
-	EXPECT_EQ(fine.holes[0].size(), 8u);
-	EXPECT_EQ(signedArea(fine), 5);
-	EXPECT_EQ(divided(frame, 0.49).outer.size(), 7u + 5 + 7 + 5);
-	EXPECT_EQ(divided(frame, 10).outer, frame.outer);
-	EXPECT_EQ(partsOf(3 * 0.1, 0.1), 3); // 4e-16 more than three times as long
-}
-
 TEST(LongEdges, AVertexThatRoundingPartedIsRefused)
 {
 	// Of the outline, 12 m long, 1e-9: just longer ones stay. In a hole as well.
@@ -118,4 +102,26 @@ TEST(LongEdges, AVertexThatRoundingPartedIsRefused)
 		EXPECT_THROW(requireLongEdges(region, 1e-9, "region"), std::invalid_argument);
 	for (const Polygon& region : { Polygon { square, {} }, Polygon { corner(1.3e-8), {} }, Polygon { square, { hole(1.7e-8) } } })
 		EXPECT_NO_THROW(requireLongEdges(region, 1e-9, "region"));
+}
+
+TEST(Polygon, AwayFromALine)
+{
+	// Beside it, beyond either end, and on it.
+	const Vec2 a(1, 1), b(4, 5); // 5 m long
+	EXPECT_LT((awayFrom(a, b, a + 0.3 * (b - a) + Vec2(-4, 3)) - Vec2(-4, 3)).norm(), 8 * eps);
+	EXPECT_LT((awayFrom(a, b, a - (b - a)) - (a - b)).norm(), 8 * eps);
+	EXPECT_LT((awayFrom(a, b, b + Vec2(3, 1)) - Vec2(3, 1)).norm(), 8 * eps);
+	EXPECT_LT(awayFrom(a, b, a + 0.7 * (b - a)).norm(), 8 * eps);
+}
+
+TEST(Polygon, PerimeterOfASumIsThatOfThePolygon)
+{
+	// Far from (0, 0) as near to it, with a hole: 10 and 4 m around, 5 m2.
+	for (const Real far : { 0.0, 1e6 }) {
+		const Polygon frame { rectangle(far, far, far + 3, far + 2), { reversed(rectangle(far + 1, far + 0.5, far + 2, far + 1.5)) } };
+		EXPECT_EQ(moments(frame).perimeter(), 14);
+		EXPECT_EQ(moments(frame).perimeter(), perimeter(frame));
+		EXPECT_EQ(moments(frame).area(), 5);
+		EXPECT_EQ(signedArea(frame), 5);
+	}
 }

@@ -1,5 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
-
+#include <Rings.hpp>
+#include <blocks/kernel/geometry/EdgeDivision.hpp>
+#include <blocks/kernel/geometry/PolygonRules.hpp>
 #include <blocks/kernel/geometry/Tessellation.hpp>
 
 #include <gtest/gtest.h>
@@ -12,14 +14,10 @@
 #include <random>
 #include <set>
 
-using namespace blocks;
+using namespace rings;
 
 namespace {
 
-constexpr Real eps = std::numeric_limits<Real>::epsilon();
-
-Ring    rectangle(Real x0, Real y0, Real x1, Real y1) { return { { x0, y0 }, { x1, y0 }, { x1, y1 }, { x0, y1 } }; }
-Ring    reversed(Ring ring) { return { ring.rbegin(), ring.rend() }; }
 Polygon solid(const Ring& outer) { return { outer, {} }; }
 
 // Lopsided on purpose: nothing here is symmetric.
@@ -886,18 +884,6 @@ TEST(Tessellation, reportsItsCost)
 		std::printf("%6d cells, lloyd 2: %.3f s\n", n, last);
 	}
 	EXPECT_LT(last, 15); // 0.2 s in an optimised build; a quadratic one would need minutes
-}
-
-TEST(PointsOnEdges, areInsertedInOrder)
-{
-	const Ring triangle = { { 0, 0 }, { 2, 0 }, { 0, 1 } };
-	const Ring out      = withPointsOnEdges(
-                triangle, { { 1.5, 0 }, { 0.5, 1e-7 }, { 1, 0.5 }, { 0, 0.25 }, { 0, 0.5 }, { 3, 0 }, { -1, 0 }, { 1, 0.2 }, { 1.5, 0 }, { 2, 1e-7 } }, 1e-6);
-	const Ring expected = { { 0, 0 }, { 0.5, 1e-7 }, { 1.5, 0 }, { 2, 0 }, { 1, 0.5 }, { 0, 1 }, { 0, 0.5 }, { 0, 0.25 } };
-	EXPECT_EQ(out, expected); // the points' own bits; not those beyond an edge's ends, off it, at a vertex, or twice
-	EXPECT_EQ(withPointsOnEdges(triangle, {}, 1e-6), triangle);
-	EXPECT_THROW(withPointsOnEdges(triangle, {}, -1), std::invalid_argument);
-	EXPECT_THROW(withPointsOnEdges(triangle, {}, std::nan("")), std::invalid_argument);
 }
 
 TEST(PointsOnEdges, makeNeighboursConform)

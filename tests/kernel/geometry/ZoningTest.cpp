@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
-
+#include <Rings.hpp>
+#include <blocks/kernel/geometry/EdgeDivision.hpp>
 #include <blocks/kernel/geometry/Tessellation.hpp>
 #include <blocks/kernel/geometry/Zoning.hpp>
 
@@ -11,14 +12,9 @@
 #include <random>
 #include <set>
 
-using namespace blocks;
+using namespace rings;
 
 namespace {
-
-constexpr Real eps = std::numeric_limits<Real>::epsilon();
-
-Ring rectangle(Real x0, Real y0, Real x1, Real y1) { return { { x0, y0 }, { x1, y0 }, { x1, y1 }, { x0, y1 } }; }
-Ring reversed(Ring ring) { return { ring.rbegin(), ring.rend() }; }
 
 // Lopsided on purpose.
 const Ring pentagon = { { 0.1, 0.2 }, { 1.7, 0.5 }, { 2.1, 1.9 }, { 1.0, 2.3 }, { -0.3, 1.1 } };

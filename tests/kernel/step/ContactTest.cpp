@@ -85,7 +85,7 @@ BlockAssembly emptyAssembly(Real thickness)
 
 // ---- detection
 
-TEST(ContactDetection, ConformingEdge)
+TEST(JointDetection, ConformingEdge)
 {
 	BlockAssembly a = twoBlocks(elasticJoint(1, 1), 0.7);
 	ASSERT_EQ(a.joints.segments.size(), 1u);
@@ -102,7 +102,7 @@ TEST(ContactDetection, ConformingEdge)
 	EXPECT_EQ(a.joints.blocksOfBatch[0].last, 1);
 }
 
-TEST(ContactDetection, AreasAddUpOnUnequalMeshes)
+TEST(JointDetection, AreasAddUpOnUnequalMeshes)
 {
 	// 3 edges against 7 along a skew line of length 2.5 from (0, 0) in the direction (3, 4)/5: 9 overlaps, 18 points, L t in all.
 	BlockAssembly a = emptyAssembly(0.35);
@@ -123,7 +123,7 @@ TEST(ContactDetection, AreasAddUpOnUnequalMeshes)
 	expectHostsMeet(a, found, 20 * eps * 2.5);
 }
 
-TEST(ContactDetection, PartlyOverlappingEdges)
+TEST(JointDetection, PartlyOverlappingEdges)
 {
 	// A brick on two others in running bond, and one beside it: surfaces 0.7 + 0.6 below, 0.5 at the side.
 	BlockAssembly a = emptyAssembly(2);
@@ -143,7 +143,7 @@ TEST(ContactDetection, PartlyOverlappingEdges)
 	expectHostsMeet(a, detectSegments(a), 20 * eps * 2);
 }
 
-TEST(ContactDetection, SurfaceOfATessellation)
+TEST(JointDetection, SurfaceOfATessellation)
 {
 	// Every edge of every cell is either the outline's or a joint: joints = (sum of perimeters - outline) / 2.
 	BlockAssembly a          = voronoi(1.7, 0.9, 6, 4, stone(), elasticJoint(1, 1), 0.4);
@@ -157,7 +157,7 @@ TEST(ContactDetection, SurfaceOfATessellation)
 		EXPECT_LE(found[i].block, found[i + 1].block) << "segments must come sorted by pair";
 }
 
-TEST(ContactDetection, WhatDoesNotTouchIsNoJoint)
+TEST(JointDetection, WhatDoesNotTouchIsNoJoint)
 {
 	BlockAssembly a = emptyAssembly(1);
 	addGrid(a, { 0, 0 }, 1, 1, 1, 1);
@@ -170,7 +170,7 @@ TEST(ContactDetection, WhatDoesNotTouchIsNoJoint)
 	EXPECT_NEAR(2 * wide[0].area, 0.9, 8 * eps);
 }
 
-TEST(ContactDetection, OrderOfBlocksOnlyChangesTheSides)
+TEST(JointDetection, OrderOfBlocksOnlyChangesTheSides)
 {
 	BlockAssembly a = emptyAssembly(1), b = emptyAssembly(1);
 	const Ring    left { { 0, 0 }, { 1, 0 }, { 1.2, 0.7 }, { 0, 1 } }, right { { 1, 0 }, { 2, 0.1 }, { 1.2, 0.7 } };
@@ -197,7 +197,7 @@ TEST(ContactDetection, OrderOfBlocksOnlyChangesTheSides)
 		EXPECT_LT((fa[n] - fb[4 + n]).norm(), 100 * eps); // stiffness 5, openings 0.2, area 0.36
 }
 
-TEST(ContactDetection, Refusals)
+TEST(JointDetection, Refusals)
 {
 	BlockAssembly a = twoBlocks(elasticJoint(1, 1));
 	expectRefusal([&] { detectSegments(a, 0); }, { "detectSegments: tolerance", "(0, 0.1)", "got 0" });
@@ -205,7 +205,7 @@ TEST(ContactDetection, Refusals)
 	expectRefusal([&] { detectSegments(a, std::nan("")); }, { "detectSegments: tolerance", "nan" });
 }
 
-TEST(ContactDetection, RefusesBlocksThatPenetrate)
+TEST(JointDetection, RefusesBlocksThatPenetrate)
 {
 	BlockAssembly a = emptyAssembly(1);
 	addGrid(a, { 0, 0 }, 1, 1, 1, 1);
@@ -218,7 +218,7 @@ TEST(ContactDetection, RefusesBlocksThatPenetrate)
 	expectRefusal([&] { detectSegments(same); }, { "blocks 0 and 1 overlap" });
 }
 
-TEST(ContactDetection, ThinBlocksAreNotTheirNeighbours)
+TEST(JointDetection, ThinBlocksAreNotTheirNeighbours)
 {
 	// A millionth as thick as long: the tolerance for touching must not reach through it. Two joints, 1 m long each.
 	BlockAssembly a;
@@ -232,7 +232,7 @@ TEST(ContactDetection, ThinBlocksAreNotTheirNeighbours)
 	EXPECT_NEAR(totalArea(found), 2 * a.thickness, 1e-6);
 }
 
-TEST(ContactDetection, RefusesABlockWithinAnother)
+TEST(JointDetection, RefusesABlockWithinAnother)
 {
 	const auto within = [](const Ring& outer, const Ring& inner, bool innerFirst) {
 		BlockAssembly a;

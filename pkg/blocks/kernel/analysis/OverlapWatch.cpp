@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/kernel/analysis/OverlapWatch.hpp>
-#include <blocks/kernel/model/BlockAssembly.hpp>
+#include <blocks/kernel/geometry/Polygon.hpp>
+#include <blocks/kernel/model/Outline.hpp>
 #include <limits>
 
 namespace blocks {
@@ -33,9 +34,7 @@ namespace {
 		/// Square of the distance to an edge [m2].
 		Real squareTo(int edge, const Vec2& p) const
 		{
-			const Vec2 from = a.mesh.reference[a.mesh.edgeNodes[edge][0]], along = a.mesh.reference[a.mesh.edgeNodes[edge][1]] - from;
-			const Real s = std::min(Real(1), std::max(Real(0), (p - from).dot(along) / along.squaredNorm()));
-			return (p - from - s * along).squaredNorm();
+			return awayFrom(a.mesh.reference[a.mesh.edgeNodes[edge][0]], a.mesh.reference[a.mesh.edgeNodes[edge][1]], p).squaredNorm();
 		}
 
 		const BlockAssembly& a;
@@ -44,28 +43,16 @@ namespace {
 		Real                 farthest = 0; // square [m2]
 	};
 
-	/// Whether a point lies within a block whose grid points are `where`(n), by the number of edges to its right.
-	template <class Where> bool within(const BlockAssembly& a, int block, const Vec2& p, const Where& where)
-	{
-		bool odd = false;
-		for (int e = a.mesh.firstEdge[block]; e < a.mesh.firstEdge[block + 1]; ++e) {
-			const Vec2 from = where(a.mesh.edgeNodes[e][0]), to = where(a.mesh.edgeNodes[e][1]);
-			if ((from.y() > p.y()) != (to.y() > p.y()) && p.x() < from.x() + (p.y() - from.y()) / (to.y() - from.y()) * (to.x() - from.x()))
-				odd = !odd;
-		}
-		return odd;
-	}
-
 	/// Means of three vertices of an outline that lie within it; of very many vertices some are left out.
 	template <class Consider> void considerOutline(const BlockAssembly& a, int block, const Consider& consider)
 	{
-		constexpr int few  = 24;
+		constexpr int few     = 24;
+		const Polygon outline = referenceOutlineOf(a, block);
 		const int     last = a.mesh.firstNode[block + 1], stride = 1 + (last - a.mesh.firstNode[block] - 1) / few;
 		for (int i = a.mesh.firstNode[block]; i < last; i += stride)
 			for (int j = i + stride; j < last; j += stride)
 				for (int k = j + stride; k < last; k += stride)
-					if (within(a, block, meanOf(a.mesh.reference, { i, j, k }), [&](int n) { return a.mesh.reference[n]; }))
-						consider({ i, j, k });
+					if (strictlyInside(meanOf(a.mesh.reference, { i, j, k }), outline)) consider({ i, j, k });
 	}
 
 } // namespace
@@ -101,7 +88,8 @@ bool OverlapWatch::entered(const BlockAssembly& a, int block, int other) const
 {
 	if (innermost[block][0] < 0) return false;
 	const auto& n = innermost[block];
-	return within(a, other, (a.position(n[0]) + a.position(n[1]) + a.position(n[2])) / 3, [&](int node) { return a.position(node); });
+	const Vec2  p = (a.position(n[0]) + a.position(n[1]) + a.position(n[2])) / 3;
+	return boxOf(a, other).contains(p) && strictlyInside(p, outlineOf(a, other));
 }
 
 int firstStrayed(const BlockAssembly& a)

@@ -1,5 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 
+#include <blocks/kernel/geometry/EdgeDivision.hpp>
+#include <blocks/kernel/geometry/PolygonRules.hpp>
 #include <blocks/kernel/geometry/ZoneMesh.hpp>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
-#include <blocks/kernel/geometry/Zoning.hpp>
+#include <blocks/kernel/geometry/Polygon.hpp>
 
-/// Cells of a tessellation, cut further.
+/// Edges with further points on them.
 namespace blocks {
 
 /// Every edge in so many equal parts. The new points have the same bits whichever way round the edge is given, so cells that share it stay conforming.
@@ -21,14 +21,15 @@ inline Ring withEdgesDivided(const Ring& ring, int parts)
 	return out;
 }
 
-/// The triangles of a cell, each as a ring of its own.
-inline std::vector<Ring> trianglesOf(const Ring& cell)
-{
-	const Zones       zones = cellZones(cell, Zoning::fan).zones;
-	std::vector<Ring> out;
-	for (const auto& t : zones.triangles)
-		out.push_back({ zones.points[t[0]], zones.points[t[1]], zones.points[t[2]] });
-	return out;
-}
+/// The ring with those of `points` that lie on its edges (within `tolerance` [m], and farther than that from its vertices
+/// and from each other) as further vertices, in order. Points keep their bits, so a neighbour's vertices become the ring's own.
+Ring    withPointsOnEdges(const Ring&, const std::vector<Vec2>& points, Real tolerance);
+Polygon withPointsOnEdges(const Polygon&, const std::vector<Vec2>& points, Real tolerance);
+
+/// Parts into which an edge must be divided so that none is longer than `longest`; a multiple of it is not one part more.
+int partsOf(Real length, Real longest);
+
+/// The polygon with every edge longer than `longest` [m] divided into equal parts.
+Polygon divided(const Polygon&, Real longest);
 
 } // namespace blocks

@@ -191,8 +191,8 @@ namespace {
 			if (empty(ring)) return false;
 			if (hasReflex) return simple(ring);
 			for (size_t k = 1; k + 1 < n; ++k) { // it turns left everywhere; once only?
-				const Vec2 a = d.position[ring[k]] - d.position[ring[0]], b = d.position[ring[k + 1]] - d.position[ring[0]];
-				if (cross(a, b) < -tolerance * (a.norm() + b.norm())) return false;
+				const Vec2 &o = d.position[ring[0]], &a = d.position[ring[k]], &b = d.position[ring[k + 1]];
+				if (twiceArea(o, a, b) < -tolerance * ((a - o).norm() + (b - o).norm())) return false;
 			}
 			return true;
 		}
@@ -203,13 +203,11 @@ namespace {
 		/// Twice the area by the perimeter [m]: less than the width.
 		Real meanWidth(const IntRing& ring) const
 		{
-			Real twice = 0, perimeter = 0;
-			for (size_t k = 0, n = ring.size(); k < n; ++k) {
-				const Vec2 &a = d.position[ring[k]], &b = d.position[ring[(k + 1) % n]];
-				twice += cross(a - d.position[ring[0]], b - d.position[ring[0]]);
-				perimeter += (b - a).norm();
-			}
-			return perimeter > 0 ? twice / perimeter : 0;
+			Real perimeter = 0;
+			for (size_t k = 0, n = ring.size(); k < n; ++k)
+				perimeter += length(ring[k], ring[(k + 1) % n]);
+			const Real area = signedArea(ring.size(), [&](size_t k) -> const Vec2& { return d.position[ring[k]]; });
+			return perimeter > 0 ? 2 * area / perimeter : 0;
 		}
 
 		bool simple(const IntRing& ring) const

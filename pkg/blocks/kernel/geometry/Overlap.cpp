@@ -1,13 +1,12 @@
 // yade-blocks, GPL-2.0-or-later
 
+#include <blocks/kernel/geometry/Boxes.hpp>
 #include <blocks/kernel/geometry/Polygon.hpp>
 
 #include <CGAL/Boolean_set_operations_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_triangulation_decomposition_2.h>
 #include <CGAL/Polygon_with_holes_2.h>
-
-#include <Eigen/Geometry>
 
 #include <list>
 
@@ -34,19 +33,11 @@ namespace {
 		return out;
 	}
 
-	Eigen::AlignedBox<Real, 2> boxOf(const Polygon& polygon)
-	{
-		Eigen::AlignedBox<Real, 2> box;
-		for (const Vec2& p : polygon.outer)
-			box.extend(p);
-		return box;
-	}
-
 } // namespace
 
 Real overlapDepth(const Polygon& a, const Polygon& b)
 {
-	const auto common = boxOf(a).intersection(boxOf(b));
+	const Box common = boxOf(a.outer).intersection(boxOf(b.outer));
 	if (common.isEmpty() || common.volume() == 0) return 0; // neighbours in a wall: most pairs that are asked for
 	std::list<ExactPolygon> pieces;
 	CGAL::intersection(exact(a), exact(b), std::back_inserter(pieces));

@@ -6,6 +6,7 @@
 #include <blocks/kernel/geometry/ClippedVoronoi.hpp>
 #include <blocks/kernel/geometry/HoleCuts.hpp>
 #include <blocks/kernel/geometry/Merging.hpp>
+#include <blocks/kernel/geometry/PolygonRules.hpp>
 #include <blocks/kernel/geometry/Tessellation.hpp>
 
 #include <CGAL/hilbert_sort.h>

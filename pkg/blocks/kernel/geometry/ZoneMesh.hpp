@@ -14,8 +14,6 @@ using Vertex        = CGAL::Triangulation_vertex_base_with_info_2<int, K>;
 using InFace        = CGAL::Triangulation_face_base_with_info_2<bool, K, CGAL::Constrained_triangulation_face_base_2<K>>; // info: inside the block?
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<K, CGAL::Triangulation_data_structure_2<Vertex, InFace>, CGAL::No_constraint_intersection_tag>;
 
-inline Real twiceArea(const Vec2& a, const Vec2& b, const Vec2& c) { return cross(b - a, c - a); }
-
 /// Triangulates the outline and marks the faces inside it.
 void triangulateOutline(Triangulation&, const Zones& outline);
 

@@ -1,5 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 
+#include <blocks/kernel/geometry/EdgeDivision.hpp>
+#include <blocks/kernel/geometry/PolygonRules.hpp>
 #include <blocks/kernel/geometry/ZoneMesh.hpp>
 
 #include <algorithm>
@@ -187,6 +189,15 @@ CellZones cellZones(const Ring& cell, Zoning wanted)
 		if (other != wanted) attempt(other);
 	if (found.empty()) throw std::invalid_argument(error);
 	return found[std::min_element(aspect.begin(), aspect.end()) - aspect.begin()];
+}
+
+std::vector<Ring> trianglesOf(const Ring& cell)
+{
+	const Zones       zones = cellZones(cell, Zoning::fan).zones;
+	std::vector<Ring> out;
+	for (const auto& t : zones.triangles)
+		out.push_back({ zones.points[t[0]], zones.points[t[1]], zones.points[t[2]] });
+	return out;
 }
 
 ZoneQuality quality(const Zones& zones)

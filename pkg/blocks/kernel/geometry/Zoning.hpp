@@ -58,6 +58,9 @@ constexpr Real sliverAspect = 30;
 /// all the zonings (delaunay: with the outline kept and zones of the cell's size) whose worst zone is the least flat.
 CellZones cellZones(const Ring& cell, Zoning wanted);
 
+/// The triangles of a cell, each as a ring of its own.
+std::vector<Ring> trianglesOf(const Ring& cell);
+
 struct ZoneQuality {
 	Real minAngle;    ///< [rad]
 	Real maxAngle;    ///< [rad]

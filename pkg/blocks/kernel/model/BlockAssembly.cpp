@@ -7,18 +7,6 @@
 #include <numeric>
 
 namespace blocks {
-namespace {
-
-	/// What lies to the left of closed lines, given as edges.
-	template <class Iterator> AreaSum momentsOf(const std::vector<Vec2>& points, Iterator begin, Iterator end)
-	{
-		AreaSum sum(points[(*begin)[0]]);
-		for (; begin != end; ++begin)
-			sum.add(points[(*begin)[0]], points[(*begin)[1]]);
-		return sum;
-	}
-
-} // namespace
 
 int BlockAssembly::addMaterial(const Material& m)
 {
@@ -55,7 +43,7 @@ int BlockAssembly::addBlock(
 	for (const auto& t : triangles) {
 		for (int node : t)
 			require(node >= 0 && node < count, "a zone's node must be one of the block's points", node);
-		const Real area = cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]) / 2;
+		const Real area = twiceArea(points[t[0]], points[t[1]], points[t[2]]) / 2;
 		require(area > 0, "a zone's area must be positive (counter-clockwise) [m2]", area);
 		for (int node : t)
 			nodalMass[node] += area * thickness * mesh.materials[material].density / 3;
@@ -70,7 +58,7 @@ int BlockAssembly::addBlock(
 		for (const auto& ring : rings)
 			for (size_t i = 0; i < ring.size(); ++i)
 				edges.push_back({ ring[i], ring[(i + 1) % ring.size()] });
-		const AreaSum sum = momentsOf(points, edges.begin(), edges.end());
+		const AreaSum sum = moments(points, edges.begin(), edges.end());
 		require(sum.area() > 0, "a rigid block's holes must be smaller than itself; area [m2]", sum.area());
 		rigidBlock.block  = blockCount();
 		rigidBlock.origin = rigidBlock.centre = sum.centroid();
@@ -110,6 +98,14 @@ int BlockAssembly::blockOfNode(int node) const
 	return int(std::upper_bound(mesh.firstNode.begin(), mesh.firstNode.end(), node) - mesh.firstNode.begin()) - 1;
 }
 
+std::vector<int> BlockAssembly::presentBlocks() const
+{
+	std::vector<int> list;
+	for (int b = 0; b < blockCount(); ++b)
+		if (!isRemoved(b)) list.push_back(b);
+	return list;
+}
+
 Vec2 BlockAssembly::centroid(int block) const
 {
 	const int first = mesh.firstNode[block], last = mesh.firstNode[block + 1];
@@ -120,7 +116,7 @@ Vec2 BlockAssembly::centroid(int block) const
 		std::vector<std::array<int, 2>> edges(mesh.edgeNodes.begin() + mesh.firstEdge[block], mesh.edgeNodes.begin() + mesh.firstEdge[block + 1]);
 		for (auto& edge : edges)
 			edge[0] -= first, edge[1] -= first;
-		return position(first) + momentsOf(points, edges.begin(), edges.end()).centroid();
+		return position(first) + moments(points, edges.begin(), edges.end()).centroid();
 	}
 	if (isRemoved(block)) return position(first); // it has no mass any more
 	Vec2 sum   = Vec2::Zero();
@@ -262,7 +258,7 @@ void BlockAssembly::rebuildZones(int firstBlock)
 			const auto& n  = mesh.zoneNodes[z];
 			const Vec2 &x0 = mesh.reference[n[0]], &x1 = mesh.reference[n[1]], &x2 = mesh.reference[n[2]];
 			mesh.zoneGradient.set(z, zoneGradients(x0, x1, x2));
-			mesh.zoneVolume[z] = thickness * cross(x1 - x0, x2 - x0) / 2;
+			mesh.zoneVolume[z] = thickness * twiceArea(x0, x1, x2) / 2;
 			const int k        = z - zone;
 			fan                = fan && n[0] == node + k && n[1] == node + (k + 1) % corners && n[2] == node + corners;
 		}

@@ -68,14 +68,15 @@ struct BlockAssembly {
 	Forces       forces;   ///< computed anew in every step
 	FreeContacts contacts; ///< who may touch whom without a bond; empty in scenes without general contact
 
-	int  blockCount() const { return int(mesh.blockMaterial.size()); }
-	int  nodeCount() const { return int(mesh.reference.size()); }
-	int  zoneCount() const { return int(mesh.zoneNodes.size()); }
-	int  pointCount() const { return 2 * joints.count(); }
-	int  blockOfNode(int node) const;
-	bool isRigid(int block) const { return mesh.firstZone[block] == mesh.firstZone[block + 1]; }
-	bool isRemoved(int block) const { return !mesh.removed.empty() && mesh.removed[block]; }
-	Vec2 centroid(int block) const; ///< of the block's present mass [m]
+	int              blockCount() const { return int(mesh.blockMaterial.size()); }
+	int              nodeCount() const { return int(mesh.reference.size()); }
+	int              zoneCount() const { return int(mesh.zoneNodes.size()); }
+	int              pointCount() const { return 2 * joints.count(); }
+	int              blockOfNode(int node) const;
+	bool             isRigid(int block) const { return mesh.firstZone[block] == mesh.firstZone[block + 1]; }
+	bool             isRemoved(int block) const { return !mesh.removed.empty() && mesh.removed[block]; }
+	std::vector<int> presentBlocks() const;     ///< those that have not been taken out, in order
+	Vec2             centroid(int block) const; ///< of the block's present mass [m]
 
 	/// Where a grid point is now [m].
 	Vec2 position(int node) const { return mesh.reference[node] + state.displacement[node]; }

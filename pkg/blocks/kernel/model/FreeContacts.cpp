@@ -1,6 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
-#include <blocks/kernel/model/BlockAssembly.hpp>
+#include <blocks/kernel/model/Outline.hpp>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -34,29 +34,14 @@ namespace {
 		f.depthLimit.resize(a.blockCount());
 		f.meanEdge.resize(a.blockCount());
 		for (int b = 0; b < a.blockCount(); ++b) {
-			const Vec2 origin = a.mesh.reference[a.mesh.firstNode[b]];
-			Real       area = 0, outline = 0;
-			for (int e = a.mesh.firstEdge[b]; e < a.mesh.firstEdge[b + 1]; ++e) {
-				const Vec2 p = a.mesh.reference[a.mesh.edgeNodes[e][0]] - origin, q = a.mesh.reference[a.mesh.edgeNodes[e][1]] - origin;
-				area += cross(p, q) / 2;
-				outline += (q - p).norm();
-			}
-			f.depthLimit[b] = area / outline; // between half the inradius (compact blocks) and all of it (thin ones)
-			f.meanEdge[b]   = outline / (a.mesh.firstEdge[b + 1] - a.mesh.firstEdge[b]);
-			f.leastDepth    = std::min(f.leastDepth, f.depthLimit[b]);
+			const AreaSum sum = referenceMoments(a, b);
+			f.depthLimit[b]   = sum.area() / sum.perimeter(); // between half the inradius (compact blocks) and all of it (thin ones)
+			f.meanEdge[b]     = meanEdge(a, b);
+			f.leastDepth      = std::min(f.leastDepth, f.depthLimit[b]);
 		}
 	}
 
 } // namespace
-
-Real meanEdge(const BlockAssembly& a, int block)
-{
-	Real      outline = 0;
-	const int first = a.mesh.firstEdge[block], last = a.mesh.firstEdge[block + 1];
-	for (int e = first; e < last; ++e)
-		outline += (a.mesh.reference[a.mesh.edgeNodes[e][1]] - a.mesh.reference[a.mesh.edgeNodes[e][0]]).norm();
-	return outline / (last - first);
-}
 
 void sortContacts(BlockAssembly& a)
 {

@@ -214,9 +214,6 @@ struct FreeContacts {
 
 struct BlockAssembly;
 
-/// Mean length of a block's boundary edges without stress [m].
-Real meanEdge(const BlockAssembly&, int block);
-
 /// Lists the contacts by blocks; again whenever some have come or gone.
 void sortContacts(BlockAssembly&);
 

@@ -37,6 +37,27 @@ Polygon outlineOf(const BlockAssembly& a, int block)
 	return polygonOf(nodesOfRings(a, block), [&](int n) { return a.position(n); });
 }
 
+Polygon referenceOutlineOf(const BlockAssembly& a, int block)
+{
+	return polygonOf(nodesOfRings(a, block), [&](int n) { return a.mesh.reference[n]; });
+}
+
+Box boxOf(const BlockAssembly& a, int block)
+{
+	Box box;
+	for (int e = a.mesh.firstEdge[block]; e < a.mesh.firstEdge[block + 1]; ++e)
+		box.extend(a.position(a.mesh.edgeNodes[e][0]));
+	return box;
+}
+
+AreaSum referenceMoments(const BlockAssembly& a, int block)
+{
+	const auto edges = a.mesh.edgeNodes.begin();
+	return moments(a.mesh.reference, edges + a.mesh.firstEdge[block], edges + a.mesh.firstEdge[block + 1]);
+}
+
+Real meanEdge(const BlockAssembly& a, int block) { return referenceMoments(a, block).perimeter() / (a.mesh.firstEdge[block + 1] - a.mesh.firstEdge[block]); }
+
 std::vector<std::array<int, 3>> cornerTriangles(const BlockAssembly& a, int block)
 {
 	const auto       rings = nodesOfRings(a, block);

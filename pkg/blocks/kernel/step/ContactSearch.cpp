@@ -1,7 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
-#include <CGAL/box_intersection_d.h>
 #include <algorithm>
-#include <blocks/kernel/step/Boxes.hpp>
+#include <blocks/kernel/model/Outline.hpp>
 #include <blocks/kernel/step/ContactSearch.hpp>
 #include <blocks/kernel/step/EdgeDetection.hpp>
 #include <blocks/kernel/step/Largest.hpp>
@@ -27,8 +26,6 @@ namespace {
 			square = std::max(square, (a.state.displacement[n] - from[n]).squaredNorm());
 		return square;
 	}
-
-	using BoxOf = CGAL::Box_intersection_d::Box_with_handle_d<Real, 2, const int*, CGAL::Box_intersection_d::ID_EXPLICIT>;
 
 	/// The first step of a scene, or the first after its state was put back. Whether neighbours are known.
 	bool start(BlockAssembly& a)
@@ -56,23 +53,18 @@ namespace {
 	/// Pairs of blocks, not bonded, of which one has moved, and whose boxes are close enough for a contact before the next look.
 	std::vector<std::array<int, 2>> newNeighbours(const BlockAssembly& a, const std::vector<int>& moved)
 	{
-		const std::vector<int> every = presentBlocks(a);
-		auto                   boxes = [&](const std::vector<int>& blocks) {
-                        std::vector<BoxOf> list;
+		const std::vector<int> every = a.presentBlocks();
+		const auto             boxes = [&](const std::vector<int>& blocks) {
+                        std::vector<Box> list;
                         list.reserve(blocks.size());
-                        for (const int& block : blocks) {
-                                const Box  box    = boxOf(a, block);
-                                const Real margin = 2 * limitOf(a.contacts, block);
-                                Real       low[] = { box.low.x() - margin, box.low.y() - margin }, high[] = { box.high.x() + margin, box.high.y() + margin };
-                                list.emplace_back(low, high, &block);
-                        }
+                        for (int block : blocks)
+                                list.push_back(grown(boxOf(a, block), 2 * limitOf(a.contacts, block)));
                         return list;
 		};
-		std::vector<BoxOf>              some = boxes(moved), all = boxes(every);
 		std::vector<std::array<int, 2>> found;
-		CGAL::box_intersection_d(some.begin(), some.end(), all.begin(), all.end(), [&](const BoxOf& p, const BoxOf& q) {
-			if (*p.handle() == *q.handle()) return;
-			const auto key = ordered(*p.handle(), *q.handle());
+		forEachMeeting(boxes(moved), boxes(every), [&](int i, int j) {
+			if (moved[i] == every[j]) return;
+			const auto key = ordered(moved[i], every[j]);
 			if (pairOf(a, key) < 0 && contactOf(a, key[0], key[1]) < 0) found.push_back(key);
 		});
 		std::sort(found.begin(), found.end());
@@ -87,7 +79,7 @@ namespace {
 		FreeContacts&    f = a.contacts;
 		std::vector<int> moved;
 		a.state.search.mayGo = std::numeric_limits<Real>::infinity();
-		for (int b : presentBlocks(a)) {
+		for (int b : a.presentBlocks()) {
 			const Real limit = limitOf(f, b), went = std::sqrt(farthestMove(a, b, a.state.search.detectedAt));
 			if (everything || !(went <= lookAgain * limit)) {
 				moved.push_back(b);
@@ -111,7 +103,7 @@ namespace {
 			if (c.block[0] < 0 || !(hasMoved[c.block[0]] || hasMoved[c.block[1]])) continue;
 			detectEdges(a, c);
 			const Real far = 4 * (limitOf(f, c.block[0]) + limitOf(f, c.block[1]));
-			if (!c.edges.empty() || boxOf(a, c.block[0]).meets(boxOf(a, c.block[1]), far)) continue;
+			if (!c.edges.empty() || meet(boxOf(a, c.block[0]), boxOf(a, c.block[1]), far)) continue;
 			a.state.lostFriction += c.friction;
 			c       = {};
 			changed = true;

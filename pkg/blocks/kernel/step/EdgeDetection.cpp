@@ -1,6 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
-#include <blocks/kernel/step/Boxes.hpp>
+#include <blocks/kernel/model/Outline.hpp>
 #include <blocks/kernel/step/EdgeDetection.hpp>
 
 namespace blocks {
@@ -53,14 +53,14 @@ void detectEdges(BlockAssembly& a, FreeContact& contact)
 	for (int i = a.mesh.firstEdge[contact.block[0]]; i < a.mesh.firstEdge[contact.block[0] + 1]; ++i) {
 		const Vec2 a0 = a.position(a.mesh.edgeNodes[i][0]), a1 = a.position(a.mesh.edgeNodes[i][1]);
 		const Box  box = boxOf(a0, a1);
-		if (!box.meets(other, reach)) continue;
+		if (!meet(box, other, reach)) continue;
 		for (int j = a.mesh.firstEdge[contact.block[1]]; j < a.mesh.firstEdge[contact.block[1] + 1]; ++j) {
 			const Vec2               b0 = a.position(a.mesh.edgeNodes[j][0]), b1 = a.position(a.mesh.edgeNodes[j][1]);
 			const std::array<int, 2> key { i, j };
 			while (old != contact.edges.end() && old->edge < key)
 				++old;
 			const bool known = old != contact.edges.end() && old->edge == key;
-			if (!box.meets(boxOf(b0, b1), reach) || !mayTouch(a0, a1, b0, b1, margin + (known ? old->uplift : 0))) continue;
+			if (!meet(box, boxOf(b0, b1), reach) || !mayTouch(a0, a1, b0, b1, margin + (known ? old->uplift : 0))) continue;
 			if (std::binary_search(bonded.begin(), bonded.end(), key)) continue;
 			if (!std::binary_search(joined.begin(), joined.end(), key) && heldTogether(a, contact.block, key)) continue;
 			if (known) {

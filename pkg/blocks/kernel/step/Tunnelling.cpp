@@ -1,7 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
-#include <CGAL/box_intersection_d.h>
 #include <algorithm>
-#include <blocks/kernel/step/Boxes.hpp>
+#include <blocks/kernel/model/Outline.hpp>
 #include <blocks/kernel/step/EdgeDetection.hpp>
 #include <blocks/kernel/step/Tunnelling.hpp>
 
@@ -31,37 +30,27 @@ namespace {
 		for (int e = a.mesh.firstEdge[block]; e < a.mesh.firstEdge[block + 1]; ++e) {
 			const int  n    = a.mesh.edgeNodes[e][0];
 			const Vec2 step = dt * (a.state.velocity[n] - against);
-			box.include(a.position(n) - step);
-			box.include(a.position(n) + step);
+			box.extend(a.position(n) - step);
+			box.extend(a.position(n) + step);
 		}
 		return box;
 	}
 
-	using BoxOf = CGAL::Box_intersection_d::Box_with_handle_d<Real, 2, const int*, CGAL::Box_intersection_d::ID_EXPLICIT>;
-
 	/// Which of `some` blocks may come near which other one within a step, in order. mean: velocities of all blocks [m/s].
 	std::vector<std::array<int, 2>> onTheWay(const BlockAssembly& a, const std::vector<int>& some, const std::vector<Vec2>& mean, Real dt)
 	{
-		const std::vector<int> every = presentBlocks(a);
-		auto                   boxes = [&](const std::vector<int>& blocks, bool ofPoints) {
-                        std::vector<BoxOf> list;
-                        list.reserve(blocks.size());
-                        for (const int& block : blocks) {
-                                Box box = ofPoints ? sweptBox(a, block, Vec2::Zero(), dt) : boxOf(a, block);
-                                if (!ofPoints) {
-                                        const Vec2 way = dt * mean[block].cwiseAbs();
-                                        box            = { box.low - way, box.high + way };
-                                }
-                                if (!box.low.allFinite() || !box.high.allFinite()) continue; // the watch will tell
-                                Real low[] = { box.low.x(), box.low.y() }, high[] = { box.high.x(), box.high.y() };
-                                list.emplace_back(low, high, &block);
-                        }
-                        return list;
-		};
-		std::vector<BoxOf>              fast = boxes(some, true), all = boxes(every, false);
+		const std::vector<int> every = a.presentBlocks();
+		std::vector<Box>       fast, all; // of what is not finite the watch will tell
+		for (int block : some)
+			fast.push_back(sweptBox(a, block, Vec2::Zero(), dt));
+		for (int block : every) {
+			const Box  box = boxOf(a, block);
+			const Vec2 way = dt * mean[block].cwiseAbs();
+			all.emplace_back(box.min() - way, box.max() + way);
+		}
 		std::vector<std::array<int, 2>> found;
-		CGAL::box_intersection_d(fast.begin(), fast.end(), all.begin(), all.end(), [&](const BoxOf& p, const BoxOf& q) {
-			if (*p.handle() != *q.handle()) found.push_back({ *p.handle(), *q.handle() });
+		forEachMeeting(fast, all, [&](int i, int j) {
+			if (some[i] != every[j]) found.push_back({ some[i], every[j] });
 		});
 		std::sort(found.begin(), found.end());
 		found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -84,7 +73,7 @@ void refuseTunnelling(const BlockAssembly& a, Real dt)
 		const Real  limit = f.mostAStep * std::min(f.depthLimit[b], f.depthLimit[other]);
 		if (((mean[b] - with).norm() + fastest(a, b, mean[b])) * dt <= limit) continue; // they move along together: most do, and need no closer look
 		const Real speed = fastest(a, b, with);
-		if (speed * dt <= limit || !sweptBox(a, b, with, dt).meets(boxOf(a, other), 0)) continue;
+		if (speed * dt <= limit || !meet(sweptBox(a, b, with, dt), boxOf(a, other), 0)) continue;
 		if (pairOf(a, ordered(b, other)) >= 0 && !edgesOfJoints(a, ordered(b, other), false).empty()) continue;
 		throw std::runtime_error(
 			"block " + std::to_string(b) + " nears block " + std::to_string(other) + " at " + shown(speed, 6) + " m/s, " + shown(speed * dt, 3)

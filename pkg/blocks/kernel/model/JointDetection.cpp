@@ -1,11 +1,10 @@
 // yade-blocks, GPL-2.0-or-later
-#include <CGAL/box_intersection_d.h>
 #include <algorithm>
+#include <blocks/kernel/geometry/Boxes.hpp>
 #include <blocks/kernel/geometry/Polygon.hpp>
-#include <blocks/kernel/model/ContactDetection.hpp>
+#include <blocks/kernel/model/JointDetection.hpp>
 #include <blocks/kernel/model/Outline.hpp>
 #include <limits>
-#include <numeric>
 
 namespace blocks {
 namespace {
@@ -75,29 +74,20 @@ namespace {
 	/// Blocks whose edges do not cross may still lie one within another: then so does the smaller one's box. Asked of blocks of which an edge is chosen.
 	void requireNoneWithin(const BlockAssembly& a, const Chosen& chosen)
 	{
-		using Box = CGAL::Box_intersection_d::Box_with_handle_d<Real, 2, const int*, CGAL::Box_intersection_d::ID_EXPLICIT>;
-		std::vector<int> number(a.blockCount());
-		std::iota(number.begin(), number.end(), 0);
 		std::vector<Box> boxes, some;
-		for (const int& block : number) {
-			Real lo[] = { std::numeric_limits<Real>::max(), std::numeric_limits<Real>::max() }, hi[] = { -lo[0], -lo[1] };
-			for (int e = a.mesh.firstEdge[block]; e < a.mesh.firstEdge[block + 1]; ++e)
-				for (int axis : { 0, 1 }) {
-					lo[axis] = std::min(lo[axis], a.position(a.mesh.edgeNodes[e][0])[axis]);
-					hi[axis] = std::max(hi[axis], a.position(a.mesh.edgeNodes[e][0])[axis]);
-				}
-			boxes.emplace_back(lo, hi, &block);
+		std::vector<int> asked; // the blocks of `some`
+		for (int block = 0; block < a.blockCount(); ++block) {
+			boxes.push_back(boxOf(a, block));
 			const auto first = chosen.begin() + a.mesh.firstEdge[block], last = chosen.begin() + a.mesh.firstEdge[block + 1];
-			if (std::find(first, last, true) != last) some.push_back(boxes.back());
+			if (std::find(first, last, true) != last) some.push_back(boxes.back()), asked.push_back(block);
 		}
-		const auto within = [&](const Box& inner, const Box& outer) {
-			for (int axis : { 0, 1 })
-				if (inner.min_coord(axis) < outer.min_coord(axis) || inner.max_coord(axis) > outer.max_coord(axis)) return false;
-			return strictlyInside(innerPoint(outlineOf(a, *inner.handle())), outlineOf(a, *outer.handle()));
+		const auto within = [&](int inner, int outer) {
+			return boxes[outer].contains(boxes[inner]) && strictlyInside(innerPoint(outlineOf(a, inner)), outlineOf(a, outer));
 		};
-		CGAL::box_intersection_d(some.begin(), some.end(), boxes.begin(), boxes.end(), [&](const Box& p, const Box& q) {
-			if (*p.handle() != *q.handle() && (within(p, q) || within(q, p)))
-				refuse(std::min(*p.handle(), *q.handle()), std::max(*p.handle(), *q.handle()), a.centroid(std::max(*p.handle(), *q.handle())));
+		forEachMeeting(some, boxes, [&](int i, int other) {
+			const int block = asked[i];
+			if (block != other && (within(block, other) || within(other, block)))
+				refuse(std::min(block, other), std::max(block, other), a.centroid(std::max(block, other)));
 		});
 	}
 
@@ -114,23 +104,20 @@ namespace {
 			}
 		}
 
-		using Box = CGAL::Box_intersection_d::Box_with_handle_d<Real, 2, const Edge*, CGAL::Box_intersection_d::ID_EXPLICIT>;
 		std::vector<Box> boxes, some;
+		std::vector<int> asked; // the edges of `some`
 		boxes.reserve(edges.size());
 		for (const Edge& e : edges) {
-			const Real margin = tolerance * e.length;
-			Real       lo[]   = { std::min(e.a.x(), e.b.x()) - margin, std::min(e.a.y(), e.b.y()) - margin };
-			Real       hi[]   = { std::max(e.a.x(), e.b.x()) + margin, std::max(e.a.y(), e.b.y()) + margin };
-			boxes.emplace_back(lo, hi, &e);
-			if (chosen[e.index]) some.push_back(boxes.back());
+			boxes.push_back(grown(boxOf(e.a, e.b), tolerance * e.length));
+			if (chosen[e.index]) some.push_back(boxes.back()), asked.push_back(e.index);
 		}
 		struct Found {
 			int     edge1, edge2;
 			Segment segment;
 		};
 		std::vector<Found> found;
-		const auto         meet = [&](const Box& p, const Box& q) {
-                        const Edge *e1 = p.handle(), *e2 = q.handle();
+		const auto         meet = [&](int one, int other) {
+                        const Edge *e1 = &edges[one], *e2 = &edges[other];
                         if (e1->block == e2->block) return;
                         if (e1->block > e2->block) std::swap(e1, e2);
                         if (penetrate(*e1, *e2, tolerance)) refuse(e1->block, e2->block, e1->a);
@@ -143,11 +130,10 @@ namespace {
                         found.push_back({ e1->index, e2->index, g });
 		};
 		if (some.size() == boxes.size())
-			CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), meet);
+			forEachMeeting(boxes, meet);
 		else
-			CGAL::box_intersection_d(some.begin(), some.end(), boxes.begin(), boxes.end(), [&](const Box& p, const Box& q) {
-				const int first = p.handle()->index, second = q.handle()->index;
-				if (!chosen[second] || first < second) meet(p, q); // two that are chosen meet twice
+			forEachMeeting(some, boxes, [&](int i, int other) {
+				if (!chosen[other] || asked[i] < other) meet(asked[i], other); // two that are chosen meet twice
 			});
 		requireNoneWithin(a, chosen);
 		std::sort(found.begin(), found.end(), [](const Found& x, const Found& y) { // by block pair, then edge by edge
