@@ -53,7 +53,10 @@ namespace {
 
 void BlockModelPython::visit(PythonModel& c) const
 {
-	defineSupports(c);
+	defineGroups(c);
+	defineLoads(c);
+	defineBoundaries(c);
+	defineAnalysis(c);
 	defineArrays(c);
 	defineJoints(c);
 	defineBuilding(c);

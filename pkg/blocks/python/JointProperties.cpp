@@ -2,6 +2,7 @@
 #include <blocks/kernel/model/StrengthField.hpp>
 #include <blocks/kernel/step/Joints.hpp>
 #include <blocks/python/ModelPython.hpp>
+#include <blocks/python/Sequences.hpp>
 #include <blocks/views/Numpy.hpp>
 #include <boost/python/raw_function.hpp>
 #include <cmath>

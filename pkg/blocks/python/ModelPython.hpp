@@ -2,16 +2,16 @@
 #pragma once
 #include <blocks/views/BlockModel.hpp>
 
-/// What Python sees of a BlockModel, in parts: building (BlockModelPython.cpp), supports and loads, joints' properties, arrays.
+/// What Python sees of a BlockModel, in parts; each has a file of its name.
 namespace yade {
 
 using PythonModel = py::class_<BlockModel, shared_ptr<BlockModel>, py::bases<Serializable>, boost::noncopyable>;
 
-void defineSupports(PythonModel&);
+void defineGroups(PythonModel&);
+void defineLoads(PythonModel&);
+void defineBoundaries(PythonModel&);
+void defineAnalysis(PythonModel&);
 void defineArrays(PythonModel&);
 void defineJoints(PythonModel&);
-
-/// Whole numbers from any sequence; floats that are none are refused.
-vector<long> integers(const py::object& sequence);
 
 } // namespace yade

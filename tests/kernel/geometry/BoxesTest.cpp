@@ -12,14 +12,14 @@ TEST(Boxes, MeetingIsWhatEachPairSays)
 	// Every pair asked by itself. The last box is where nothing is: it has no finite corners.
 	std::mt19937                         random(5);
 	std::uniform_real_distribution<Real> u(0, 1);
-	const auto some = [&](int n) {
-		std::vector<Box> boxes;
-		for (int i = 0; i < n; ++i) {
-			const Vec2 low(u(random), u(random));
-			boxes.emplace_back(low, low + 0.2 * Vec2(u(random), u(random)));
-		}
-		boxes.emplace_back(Vec2(std::nan(""), 0), Vec2(1, 1));
-		return boxes;
+	const auto                           some = [&](int n) {
+                std::vector<Box> boxes;
+                for (int i = 0; i < n; ++i) {
+                        const Vec2 low(u(random), u(random));
+                        boxes.emplace_back(low, low + 0.2 * Vec2(u(random), u(random)));
+                }
+                boxes.emplace_back(Vec2(std::nan(""), 0), Vec2(1, 1));
+                return boxes;
 	};
 	const std::vector<Box>       ones = some(60), others = some(45);
 	std::set<std::array<int, 2>> expected, expectedWithin, found, within;

@@ -136,43 +136,50 @@ private:
 	using Dense   = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
 	// ---- EventPathStiffness.cpp: the tangent K
-	void factorise();
-	void change(int i, const ModePoint& next, const Stress& jump);
-	void followDirections(int i, const Two& by, const Stress& jump);
-	void followFactors(const LinearPoint&, const Two& delta);
+	void        factorise();
+	void        change(int i, const ModePoint& next, const Stress& jump);
+	void        followDirections(int i, const Two& by, const Stress& jump);
+	void        followFactors(const LinearPoint&, const Two& delta);
+	void        solvePoint(const LinearPoint&);
+	static bool wellConditioned(const Two&);
+	bool        anchor(const Vector& motion);
+	void        solvePair(Vector& a, Vector& b);
+	void        addTo(Vector& f, int i, Real byN, Real byT) const;
+	void        spread(Direction&, Real lambda) const;
+
+	// ---- EventPathFriction.cpp: G and W, by which sliding points are not symmetric
+	void collectFriction();
 	bool followFriction(const Two&);
 	bool dropFriction(int i);
 	bool addFriction(int i, const Two& own);
 	void invertFriction();
-	void solvePoint(const LinearPoint&);
-	bool anchor(const Vector& motion);
-	void collectFriction();
 	void withFriction(std::vector<Real>& x, const Columns&);
-	void solvePair(Vector& a, Vector& b);
-	void addTo(Vector& f, int i, Real byN, Real byT) const;
-	void spread(Direction&, Real lambda) const;
 
-	// ---- EventPath.cpp: the path
+	// ---- EventPathEquilibrium.cpp: forces, and what the unknowns make of the contact points
 	void   setUp();
 	void   measure();
 	Vector loadForce() const;
 	Vector releaseForce() const;
 	Vector residualForce();
 	void   refresh();
-	void   chooseDirection(Phase);
-	void   holdBack();
-	Real   jointEnergy() const;
-	bool   step(Phase, Real until);
-	bool   giveAway();
-	void   book(Real h, Real rBefore);
-	void   transition(int i, PointEvent);
-	bool   countTurn(int i);
-	void   breakPending();
-	bool   end(const std::string&);
-	bool   note(int point, PointEvent);
 	Real   imbalance();
-	bool   small();
 	Real   reaction() const;
+
+	// ---- EventPathAccounts.cpp: energies
+	Real jointEnergy() const;
+	void book(Real h, Real rBefore);
+
+	// ---- EventPath.cpp: the path
+	void chooseDirection(Phase);
+	void holdBack();
+	bool step(Phase, Real until);
+	bool giveAway();
+	void transition(int i, PointEvent);
+	bool countTurn(int i);
+	void breakPending();
+	bool end(const std::string&);
+	bool note(int point, PointEvent);
+	bool small();
 
 	const LinearModel& m;
 	const Release      release;

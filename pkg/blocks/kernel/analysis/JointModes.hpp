@@ -29,6 +29,9 @@ struct Stress {
 	Real sigma = 0, tau = 0; ///< [Pa]
 };
 
+/// psi of a sliding point: zero unless it dilates.
+inline Real psiOf(const JointParams& p, const ModePoint& m) { return m.dilating ? p.tanDilation : 0; }
+
 /// ke of a point that slides and dilates; kn of any other that slides.
 inline Real slidingStiffness(const JointParams& p, const ModePoint& m)
 {

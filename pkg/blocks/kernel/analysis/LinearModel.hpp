@@ -32,6 +32,15 @@ struct LinearPoint {
 	std::array<int, 8>  unknown;          ///< these
 	std::array<Real, 8> n, t;             ///< opening and slip by each
 	Real                nDriven, tDriven; ///< opening and slip by the load factor
+
+	/// What a motion of the unknowns, x[0], x[stride], ..., does to it; b: n or t.
+	Real times(const std::array<Real, 8>& b, const Real* x, int stride) const
+	{
+		Real sum = 0;
+		for (int k = 0; k < count; ++k)
+			sum += b[k] * x[stride * unknown[k]];
+		return sum;
+	}
 };
 
 struct LinearModel {

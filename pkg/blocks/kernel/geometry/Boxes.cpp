@@ -32,9 +32,8 @@ void forEachMeeting(const std::vector<Box>& boxes, const std::vector<Box>& other
 void forEachMeeting(const std::vector<Box>& boxes, const VisitBoxes& visit)
 {
 	std::vector<Numbered> all = numbered(boxes);
-	CGAL::box_self_intersection_d(all.begin(), all.end(), [&](const Numbered& p, const Numbered& q) {
-		visit(int(p.handle() - boxes.data()), int(q.handle() - boxes.data()));
-	});
+	CGAL::box_self_intersection_d(
+		all.begin(), all.end(), [&](const Numbered& p, const Numbered& q) { visit(int(p.handle() - boxes.data()), int(q.handle() - boxes.data())); });
 }
 
 } // namespace blocks

@@ -113,7 +113,7 @@ void requireClear(const Polygon& region, Real clearance, const std::string& name
 {
 	const Walls walls(region);
 	const auto  toWall = [&](int corner, int k) { return awayFrom(walls.corner[k], walls.corner[walls.next[k]], walls.corner[corner]).norm(); };
-	const auto joined = [&](int a, int b) { return walls.next[a] == b || walls.next[b] == a; };
+	const auto  joined = [&](int a, int b) { return walls.next[a] == b || walls.next[b] == a; };
 	forEachNearPair(walls, clearance, [&](int a, int b) {
 		const int afterA = walls.next[a], afterB = walls.next[b];
 		if (joined(a, b) || joined(afterA, b) || joined(afterB, a)) return; // a short wall is no gap

@@ -1,13 +1,10 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
 #include <algorithm>
-#include <atomic>
-#include <blocks/kernel/laws/EdgeContact.hpp>
-#include <blocks/kernel/laws/JointLaw.hpp>
+#include <blocks/kernel/model/ContactList.hpp>
 #include <blocks/kernel/model/EdgeColumns.hpp>
 #include <blocks/kernel/model/JointCorners.hpp>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 /// Contact of blocks that were never bonded, or whose joints have broken: they slide, part and meet again.
@@ -22,98 +19,6 @@
 /// Most pairs do not touch. Such a pair rests, without being looked at, until the two blocks have gone so far that it might. Blocks that move along
 /// together go far without nearing each other: so before a pair is looked at, its corners are compared with where they were.
 namespace blocks {
-
-/// Two edges of two blocks that touch or may do so soon. What a step writes lies in one cache line.
-struct alignas(64) EdgePair {
-	std::array<Real, 2> slip { 0, 0 };  ///< elastic slip of the two ends: tau / ks [m]
-	std::array<Real, 2> sigma { 0, 0 }; ///< normal stress of the ends, tension positive [Pa]
-	std::array<Real, 2> tau { 0, 0 };   ///< shear stress; positive drags the first block along e_A [Pa]
-	Real                area      = 0;  ///< of each end, in the step of the stresses [m2]
-	Real                potential = 0;  ///< of the normal stresses, per kn and thickness, while the edges touch [m3]
-
-	std::array<int, 2> edge; ///< of the first block and of the second
-	std::array<int, 4> node; ///< a0, a1, b0, b1
-	bool               touching = false;
-	Real               uplift   = 0; ///< see raised(): what the joint had dilated that became this pair; below 0 what overlapped then [m]
-	EdgeShape          shape;
-};
-
-/// In place of when to ask a pair whether it rests on: it does not rest, it is in work.
-constexpr Real inWork = std::numeric_limits<Real>::infinity();
-
-/// What is known of a pair of edges that does not touch: as long as its corners are close to where they were, it goes on not touching.
-struct Rest {
-	Real                until = 0; ///< it does not touch before the paths of the two blocks add up to this, or is inWork [m]
-	Real                free  = 0; ///< so close, the corners of A and those of B taken together; 0 where nothing is known [m]
-	std::array<int, 4>  node {};   ///< a0, a1, b0, b1
-	std::array<Vec2, 3> from;      ///< displacements of a1, b0, b1 less that of a0 when `free` was measured; none while it is 0 [m]
-};
-
-/// All that happens between two blocks, apart from their bonds.
-struct FreeContact {
-	std::array<int, 2>    block { -1, -1 }; ///< first < second; -1: an empty slot
-	Real                  friction = 0;     ///< dissipated so far [J]
-	std::vector<EdgePair> edges;            ///< sorted by edge
-	std::vector<Rest>     rests;            ///< of each of `edges`
-	std::vector<int>      active;           ///< those of `edges` that touch, as of the last step
-	JointParams           joint;            ///< residual values count; kn = 0 until they are known
-};
-
-/// The contacts of a State, which know when somebody may have changed them: whoever gets hold of one that can be written, or puts another list in their
-/// place, makes a new edition. Columns that were filled from one edition are not used with another one, so nobody has to say that he changed something.
-class ContactList {
-public:
-	ContactList() = default;
-	ContactList(const ContactList& other)
-		: list(other.list)
-	{
-	}
-	ContactList(ContactList&& other) noexcept
-		: list(std::move(other.list))
-	{
-		other.changed();
-	}
-	ContactList& operator=(const ContactList& other)
-	{
-		list = other.list;
-		changed();
-		return *this;
-	}
-	ContactList& operator=(ContactList&& other) noexcept
-	{
-		list = std::move(other.list);
-		changed(), other.changed();
-		return *this;
-	}
-	~ContactList() = default;
-
-	const std::vector<FreeContact>& all() const { return list; }
-	std::vector<FreeContact>&       all() { return changed(), list; }
-	const FreeContact&              operator[](size_t i) const { return list[i]; }
-	FreeContact&                    operator[](size_t i) { return changed(), list[i]; }
-	auto                            begin() const { return list.begin(); }
-	auto                            begin() { return changed(), list.begin(); }
-	auto                            end() const { return list.end(); }
-	auto                            end() { return list.end(); }
-	size_t                          size() const { return list.size(); }
-	bool                            empty() const { return list.empty(); }
-
-	/// No two editions have the same number, whichever list they are of.
-	long edition() const { return number.load(std::memory_order_relaxed); }
-	/// For the step alone, which tells its columns what it tells the contact.
-	FreeContact& keepingEdition(size_t i) { return list[i]; }
-
-private:
-	static long next()
-	{
-		static std::atomic<long> last { 0 };
-		return ++last;
-	}
-	void changed() { number.store(next(), std::memory_order_relaxed); } // also by several threads at once, each with a contact of its own
-
-	std::vector<FreeContact> list;
-	std::atomic<long>        number { next() };
-};
 
 /// When to look at a contact.
 struct Sleep {
@@ -227,9 +132,6 @@ int contactOf(const BlockAssembly&, int block1, int block2);
 
 /// The pair of bonded blocks, first < second, or -1.
 int pairOf(const BlockAssembly&, const std::array<int, 2>& blocks);
-
-/// The nodes and shape of a pair of edges, from its two edges.
-void nameEdges(const BlockAssembly&, EdgePair&);
 
 /// Which pairs touch is not known any more; the next step looks at all of them.
 void forgetActive(FreeContact&);

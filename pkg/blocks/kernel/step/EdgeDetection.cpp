@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
+#include <blocks/kernel/model/EdgeShapes.hpp>
 #include <blocks/kernel/model/Outline.hpp>
 #include <blocks/kernel/step/EdgeDetection.hpp>
 
