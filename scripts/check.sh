@@ -1,7 +1,7 @@
 #!/bin/bash
 # The kernel and its tests built in other ways: scripts/check.sh [KIND ...]; arguments behind -- go to the tests (e.g. -- --gtest_filter='Joint*').
 #   strict      warnings are errors, in the plugin too
-#   assertions  with assertions, Eigen's and the library's own bounds checks
+#   assertions  with assertions, Eigen's and the library's own bounds checks; warnings are errors
 #   narrow      without the loops for AVX2: the plugin must give the same golden fingerprints
 #   address     sanitizers for addresses and undefined behaviour
 #   thread      the sanitizer for threads, on what runs in parallel
@@ -36,7 +36,7 @@ for kind in "${kinds[@]}"; do
 		build strict all -DBLOCKS_STRICT=ON
 		;;
 	assertions)
-		build assertions kernel_tests -DCMAKE_BUILD_TYPE=Checked -DCMAKE_CXX_FLAGS_CHECKED="-O1 -g1 -D_GLIBCXX_ASSERTIONS"
+		build assertions kernel_tests -DBLOCKS_STRICT=ON -DCMAKE_BUILD_TYPE=Checked -DCMAKE_CXX_FLAGS_CHECKED="-O1 -g1 -D_GLIBCXX_ASSERTIONS"
 		build/check-assertions/tests/kernel_tests --gtest_brief=1 "$@"
 		;;
 	narrow)
