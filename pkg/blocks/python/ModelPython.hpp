@@ -11,6 +11,9 @@ void defineSupports(PythonModel&);
 void defineArrays(PythonModel&);
 void defineJoints(PythonModel&);
 
+/// A polygon from its points and those of its holes, which may run either way round.
+blocks::Polygon polygon(const py::object& outer, const py::object& holes);
+
 /// Whole numbers from any sequence; floats that are none are refused.
 vector<long> integers(const py::object& sequence);
 
