@@ -186,7 +186,8 @@ class BlocksExport:
 	Zones: block, material (number in O.materials' order), stresses sxx, syy, sxy, szz, principal stresses s1, s2 in the plane and vonMises [Pa],
 	strains exx, eyy, exy; grid points: displacement [m], velocity [m/s];
 	joints: firstBlock, secondBlock, name (a number, -1 without), normal (out of the first block), area [m2], opening [m], slip [m], sigma [Pa], tau [Pa],
-	status (0 intact, 1 broken in tension, 2 in shear, 3 never bonded, 4 softening) and damage (0 whole to 1, only residual strength is left);
+	status (0 intact, 1 broken in tension, 2 in shear, 3 never bonded, 4 softening), damage (0 whole to 1, only residual strength is left) and the columns
+	of a joint law of one's own (BlockModel.lawColumns);
 	contacts: firstBlock, secondBlock and force on the first [N]."""
 	@door(folder='file')
 	def __init__(self, folder):
@@ -267,6 +268,8 @@ def _joints(model, untouched):
 	if getattr(model, "jointNames", ()): cells["name"] = np.repeat(np.asarray(model.segmentName, np.int32), 2)
 	for name in ("opening", "slip", "sigma", "tau", "damage"):
 		values = np.array(getattr(model, "point" + name.capitalize()))
+		cells[name] = np.zeros_like(values) if untouched else values
+	for name, values in getattr(model, "lawColumns", {}).items():
 		cells[name] = np.zeros_like(values) if untouched else values
 	status = np.array(model.pointStatus, np.uint8)
 	cells["status"] = np.where(status == 3, status, 0).astype(np.uint8) if untouched else status # never bonded stays so

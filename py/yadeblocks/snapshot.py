@@ -30,6 +30,7 @@ class Snapshot:
 		for name in _passing:
 			setattr(self, name, np.array(getattr(model, name)))
 		self.jointNames, self.segmentName = list(getattr(model, "jointNames", ())), np.array(getattr(model, "segmentName", ()))
+		self.lawColumns = {name: np.array(column) for name, column in getattr(model, "lawColumns", {}).items()}
 		self.time = float(time)
 		self._stress = np.array(model.zoneStress())
 		self._contacts = {name: np.array(column) for name, column in model.freeContacts().items()} if hasattr(model, "freeContacts") else {}

@@ -28,7 +28,7 @@ writable = {
 	'BlockForces': dict(dead=True, label='a'),
 	'BlockLoop': dict(contact=True, dead=True, label='a'),
 	'BlockLaw': {},
-	'NumpyLaw': {},
+	'NumpyLaw': dict(columns=['wear']),
 	'BlockState': {},
 	'BlockMotion': dict(damping='none', alpha=0.7, watchPeriod=7, rescueFile='x.xml', safety=0.5, quasiStatic=False, dead=True, label='a'),
 	'BlockIntegrator': dict(damping='none', alpha=0.7, watchPeriod=7, rescueFile='x.xml', dead=True, label='a'),

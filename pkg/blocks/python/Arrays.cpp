@@ -164,6 +164,20 @@ namespace {
 		return view<Real>(self, a.state.*column, 1, Use::result);
 	}
 
+	py::dict lawColumns(BlockModel& model)
+	{
+		blocks::LawColumns& all = model.assembly.state.lawColumns;
+		py::dict            out;
+		for (const string& name : all.names) {
+			const py::object column = numpyOf(all[name], false).attr("copy")();
+			column.attr("setflags")(false);
+			out[name] = column;
+		}
+		return out;
+	}
+
+	void dropLawColumns(BlockModel& model) { model.assembly.state.lawColumns = {}; }
+
 	py::dict zoneQuality(const BlockModel& m)
 	{
 		if (m.assembly.zoneCount() == 0) throw std::runtime_error("BlockModel.zoneQuality: the model has no zones yet");
@@ -264,6 +278,8 @@ void defineArrays(PythonModel& c)
 		.add_property("pointTau", py::make_function(+[](py::object self) -> py::object { return pointStress(self, &blocks::PointStresses::tau, arrays(self).state.tau); }), "Shear stresses of the contact points, as pointSigma [Pa].")
 		.add_property("pointStatus", py::make_function(+[](py::object self) -> py::object { return view<std::uint8_t>(self, arrays(self).state.status, 1, Use::result); }), "0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded, 4 softening: beyond its peak. A joint that softens counts as broken from a damage of 0.9 on.")
 		.add_property("pointDamage", py::make_function(&damages), "Damage of the contact points: 0 whole or never bonded, 1 nothing but residual strength is left; joints that do not soften have no other values. A copy.")
+		.add_property("lawColumns", &lawColumns, "Columns of a joint law of one's own (:yref:`BlockLaw`, :yref:`NumpyLaw`): name -> one number a contact point, two a joint, in the unit that the law gives them. Empty until such a law has worked. Copies.")
+		.def("dropLawColumns", &dropLawColumns, "Forgets the columns of a joint law of one's own, so that a law with other ones can follow; its columns are 0 again.")
 		.add_property("snappedBack", &snappedBack, "How often a contact point of a joint that softens has snapped back: its pressure was too high for the stress to follow the softening curve, and it dropped to it.");
 	// clang-format on
 }

@@ -35,15 +35,18 @@ namespace {
 		return out;
 	}
 
-	blocks::Polygon polygon(const py::object& outer, const py::object& holes)
-	{
-		blocks::Polygon out { ring(outer), {} };
-		if (!PySequence_Check(holes.ptr()))
-			throw std::invalid_argument("holes must be a list of polygons, got " + string(py::extract<string>(py::str(holes))));
-		for (long i = 0; i < py::len(holes); ++i)
-			out.holes.push_back(ring(holes[i]));
-		return blocks::holesClockwise(out);
-	}
+} // namespace
+
+blocks::Polygon polygon(const py::object& outer, const py::object& holes)
+{
+	blocks::Polygon out { ring(outer), {} };
+	if (!PySequence_Check(holes.ptr())) throw std::invalid_argument("holes must be a list of polygons, got " + string(py::extract<string>(py::str(holes))));
+	for (long i = 0; i < py::len(holes); ++i)
+		out.holes.push_back(ring(holes[i]));
+	return blocks::holesClockwise(out);
+}
+
+namespace {
 
 	const std::map<string, blocks::Zoning> zonings { { "fan", blocks::Zoning::fan },
 		                                         { "corners", blocks::Zoning::corners },

@@ -1,7 +1,9 @@
 // yade-blocks, GPL-2.0-or-later
+#include <blocks/kernel/geometry/Polygon.hpp>
+#include <blocks/kernel/model/JointChoice.hpp>
 #include <blocks/kernel/model/StrengthField.hpp>
 #include <blocks/kernel/step/Joints.hpp>
-#include <blocks/python/ModelPython.hpp>
+#include <blocks/python/Building.hpp>
 #include <blocks/python/Sequences.hpp>
 #include <blocks/views/Numpy.hpp>
 #include <boost/python/raw_function.hpp>
@@ -146,6 +148,60 @@ namespace {
 		return chosen;
 	}
 
+	/// The index of a material that blocks of the model have.
+	int knownMaterial(const BlockModel& model, const string& label, const string& method)
+	{
+		const auto& labels = model.materialLabels;
+		const auto  found  = std::find(labels.begin(), labels.end(), label);
+		string      known;
+		for (const string& other : labels)
+			known += (known.empty() ? "" : ", ") + other;
+		if (found == labels.end())
+			throw std::invalid_argument(method + ": no block is of the material \"" + label + "\"; there are: " + (known.empty() ? "none" : known));
+		return int(found - labels.begin());
+	}
+
+	/// Those of some joints that are between two materials and within a region; None: wherever they are.
+	vector<long> narrowed(const BlockModel& model, const vector<long>& joints, const py::object& pair, const py::object& region, const string& method)
+	{
+		const auto& a = model.assembly;
+		vector<int> chosen(joints.begin(), joints.end());
+		if (!pair.is_none()) {
+			const auto labels = texts(pair);
+			if (labels.size() != 2 || PyUnicode_Check(pair.ptr()))
+				throw std::invalid_argument(
+					method + ": pair must be the labels of two materials, (label, label), got "
+					+ string(py::extract<string>(pair.attr("__repr__")())));
+			const int first = knownMaterial(model, labels[0], method), second = knownMaterial(model, labels[1], method);
+			chosen.erase(
+				std::remove_if(chosen.begin(), chosen.end(), [&](int i) { return !blocks::isBetween(a, i, first, second); }), chosen.end());
+		}
+		if (!region.is_none()) {
+			const blocks::Polygon outline = polygon(region, py::list());
+			blocks::requireSimple(outline, method + ".region");
+			chosen = blocks::jointsWithin(a, outline, chosen);
+		}
+		return { chosen.begin(), chosen.end() };
+	}
+
+	py::object jointsWhere(const BlockModel& model, const py::object& pair, const py::object& region, const py::object& joints)
+	{
+		const string method = "BlockModel.jointsWhere";
+		if (model.assembly.joints.count() == 0) throw std::runtime_error(method + ": there are no joints yet; call bond() first");
+		const auto  chosen = narrowed(model, chosenJoints(model, joints, method), pair, region, method);
+		vector<int> list(chosen.begin(), chosen.end());
+		return numpyOf(list, false).attr("copy")();
+	}
+
+	/// Takes a keyword out; None if it is not there.
+	py::object taken(py::dict& keywords, const char* name)
+	{
+		if (!keywords.has_key(name)) return py::object();
+		const py::object value = keywords[name];
+		keywords[name].del();
+		return value;
+	}
+
 	py::object setJoints(py::tuple args, py::dict keywords)
 	{
 		if (py::len(args) > 2)
@@ -154,11 +210,11 @@ namespace {
 		auto&       a     = model.assembly;
 		if (a.joints.count() == 0) throw std::runtime_error("BlockModel.setJoints: there are no joints yet; call bond() first");
 		py::object which = py::len(args) == 2 ? py::object(args[1]) : py::object();
-		if (keywords.has_key("joints")) {
-			which = keywords["joints"];
-			keywords["joints"].del();
-		}
-		const vector<long> chosen = chosenJoints(model, which, "BlockModel.setJoints");
+		if (keywords.has_key("joints")) which = taken(keywords, "joints");
+		const py::object   pair = taken(keywords, "pair"), region = taken(keywords, "region");
+		const vector<long> chosen = narrowed(model, chosenJoints(model, which, "BlockModel.setJoints"), pair, region, "BlockModel.setJoints");
+		if (chosen.empty() && !(pair.is_none() && region.is_none()))
+			throw std::invalid_argument("BlockModel.setJoints: no joint is between the two materials of pair and within region");
 
 		vector<Joint> changed;
 		for (long i : chosen)
@@ -276,10 +332,19 @@ void defineJoints(PythonModel& c)
 		 "them.")
 		.def("setJoints",
 	             py::raw_function(&setJoints, 1),
-	             "setJoints(joints=None, kn=..., ks=..., cohesion=..., ...): new properties for the given joints (indices of segments, or a name or "
-	             "several of :yref:`nameJoints<BlockModel.nameJoints>`; None: all), each one number or one for each of them; names as in "
-	             ":yref:`jointProperties<BlockModel.jointProperties>`. So joints of a region or of a list can "
-	             "have their own. Reaches masses and time step. Errors: ValueError for impossible values and unknown names; nothing is changed then.")
+	             "setJoints(joints=None, pair=None, region=None, kn=..., ks=..., cohesion=..., ...): new properties for the given joints (indices of "
+	             "segments, or a name or several of :yref:`nameJoints<BlockModel.nameJoints>`; None: all), of these for those between two materials and "
+	             "in a region, as in :yref:`jointsWhere<BlockModel.jointsWhere>`; each one number or one for each of them; names as in "
+	             ":yref:`jointProperties<BlockModel.jointProperties>`. Reaches masses and time step. Errors: ValueError for impossible values, unknown "
+	             "names and labels, and a pair or region without joints; nothing is changed then.")
+		.def("jointsWhere",
+	             &jointsWhere,
+	             (arg("pair") = py::object(), arg("region") = py::object(), arg("joints") = py::object()),
+	             "Indices of joints for whatever takes joints, and for columns with one entry a segment "
+	             "(``model.jointProperties['kn'][indices]``). pair: labels of two materials, in either order; twice the same: joints within it. region: "
+	             "a polygon, counter-clockwise: joints whose middle lay within it, or on its outline, before anything moved. joints: indices or names, "
+	             "only these, in their order; None: all, ascending. There may be none that fits. A copy. Errors: ValueError for "
+	             "labels that no block has, and what is no polygon.")
 		.def("scatterStrengths",
 	             &scatterStrengths,
 	             (arg("cov"), arg("correlationLength") = 0., arg("seed") = 1, arg("kind") = "weibull", arg("joints") = py::object()),

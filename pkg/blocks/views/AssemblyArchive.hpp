@@ -14,6 +14,9 @@ namespace blocks {
 /// Grows whenever the fields change. Files of another format are refused.
 constexpr int archiveFormat = 7;
 
+/// Of files that have columns of a joint law of one's own, behind the other fields. All others are as if there were no such columns.
+constexpr int formatWithLawColumns = 8;
+
 } // namespace blocks
 
 namespace boost {
@@ -22,6 +25,7 @@ namespace serialization {
 	template <class Archive> struct FieldArchive {
 		Archive&                    ar;
 		template <class Field> void operator()(const char* name, Field& field) const { ar& make_nvp(name, field); }
+		void                        operator()(const char*, blocks::LawColumns&) const { } // at the end, where there are any
 	};
 
 #define BLOCKS_ARCHIVE(type)                                                                                                                                   \
@@ -43,6 +47,7 @@ namespace serialization {
 	BLOCKS_ARCHIVE(Accounts)
 	BLOCKS_ARCHIVE(Softened)
 	BLOCKS_ARCHIVE(FurtherAccounts)
+	BLOCKS_ARCHIVE(LawColumns)
 	BLOCKS_ARCHIVE(Dashpot)
 	BLOCKS_ARCHIVE(ViscousBoundary)
 	BLOCKS_ARCHIVE(State)
@@ -50,17 +55,19 @@ namespace serialization {
 
 	template <class Archive> void serialize(Archive& ar, blocks::BlockAssembly& x, unsigned)
 	{
-		int format = blocks::archiveFormat;
+		int format = x.state.lawColumns.empty() ? blocks::archiveFormat : blocks::formatWithLawColumns;
 		try {
 			ar& make_nvp("format", format);
 		} catch (const boost::archive::archive_exception&) {
 			format = 1; // there was no such number
 		}
-		if (format != blocks::archiveFormat)
+		if (format != blocks::archiveFormat && format != blocks::formatWithLawColumns)
 			throw std::runtime_error(
 				"this file was saved by another version of yade-blocks (format " + std::to_string(format) + ", this one reads "
-				+ std::to_string(blocks::archiveFormat) + "): build the model anew with its script");
+				+ std::to_string(blocks::archiveFormat) + " and " + std::to_string(blocks::formatWithLawColumns)
+				+ "): build the model anew with its script");
 		blocks::forEachField(x, FieldArchive<Archive> { ar });
+		if (format == blocks::formatWithLawColumns) ar& make_nvp("lawColumns", x.state.lawColumns);
 		std::uint64_t sum = Archive::is_loading::value ? 0 : blocks::fingerprint(x);
 		ar&           make_nvp("fingerprint", sum);
 		if (!Archive::is_loading::value) return;

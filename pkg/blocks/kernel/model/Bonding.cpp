@@ -21,7 +21,8 @@ void BlockAssembly::bond(std::vector<Segment> found)
 	joints.softening.clear();
 	joints.inSituOpening.clear(), joints.inSituSlip.clear();
 	joints.names.clear(), joints.nameOf.clear();
-	state.softened = {};
+	state.softened   = {};
+	state.lawColumns = {};
 	joints.kind.assign(joints.count(), 0);
 	for (auto* column : { &state.opening, &state.slip, &state.sigma, &state.tau, &state.slipPlastic, &state.uplift })
 		column->assign(pointCount(), 0);

@@ -110,6 +110,8 @@ template <class T, class Visit, Only<T, Softened> = 0> void forEachField(T& x, V
 	visit("modeI", x.modeI), visit("modeII", x.modeII), visit("cap", x.cap), visit("snapped", x.snapped);
 }
 
+template <class T, class Visit, Only<T, LawColumns> = 0> void forEachField(T& x, Visit&& visit) { visit("names", x.names), visit("columns", x.columns); }
+
 template <class T, class Visit, Only<T, State> = 0> void forEachField(T& x, Visit&& visit)
 {
 	visit("displacement", x.displacement), visit("velocity", x.velocity), visit("inertia", x.inertia);
@@ -118,7 +120,7 @@ template <class T, class Visit, Only<T, State> = 0> void forEachField(T& x, Visi
 	visit("groups", x.groups), visit("rigid", x.rigid), visit("contacts", x.contacts.all()), visit("search", x.search),
 		visit("lostFriction", x.lostFriction);
 	visit("viscosity", x.viscosity), visit("accounts", x.accounts), visit("softened", x.softened);
-	visit("further", x.further);
+	visit("further", x.further), visit("lawColumns", x.lawColumns);
 }
 
 template <class T, class Visit, Only<T, Dashpot> = 0> void forEachField(T& x, Visit&& visit)

@@ -50,6 +50,10 @@ namespace {
 		{
 			if (x.any()) forEachField(x, *this);
 		}
+		void operator()(const char*, const LawColumns& x) // scenes without a law that has columns keep theirs
+		{
+			if (!x.empty()) forEachField(x, *this);
+		}
 		template <class T> auto operator()(const char*, const T& x) -> decltype(forEachField(x, std::declval<Hash&>())) { forEachField(x, *this); }
 	};
 

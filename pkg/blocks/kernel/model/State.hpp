@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
 #include <blocks/kernel/model/FreeContacts.hpp>
+#include <blocks/kernel/model/LawColumns.hpp>
 #include <blocks/kernel/model/Motion.hpp>
 #include <blocks/kernel/model/RigidBlock.hpp>
 
@@ -63,6 +64,7 @@ struct State {
 	std::vector<Real>  slipPlastic, uplift; ///< see JointState [m]
 	std::vector<Joint> status;
 	Softened           softened;
+	LawColumns         lawColumns;
 
 	// ---- joints
 	std::vector<char> released; ///< whether the joint's edges are a free contact by now

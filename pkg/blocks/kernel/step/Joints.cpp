@@ -52,6 +52,7 @@ void updateKinematics(BlockAssembly& a, JointRange range)
 
 void advanceByRanges(BlockAssembly& a, const JointLawOnRange& law, bool account, int threads)
 {
+	a.state.lawColumns.claim(law.name(), law.columns(), a.pointCount());
 	if (account) a.forces.before.take(a.state);
 	const int parts = law.serial() ? 1 : threads;
 	forEachInParallel(parts, parts, [&](int part) {

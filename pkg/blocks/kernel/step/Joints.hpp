@@ -49,7 +49,7 @@ template <class Work> void withOwnLaw(const BlockAssembly& a, const Work& work)
 		work(Brittle {});
 }
 
-/// Works on a range of joints; one virtual call a range. A law of one's own may keep columns of its own, indexed by contact point.
+/// Works on a range of joints; one virtual call a range. What it remembers of contact points beyond their JointState are columns with names.
 class JointLawOnRange {
 public:
 	virtual ~JointLawOnRange() = default;
@@ -57,6 +57,10 @@ public:
 	virtual void advance(BlockAssembly&, JointRange) const = 0;
 	/// Whether it wants all joints at once, from one thread.
 	virtual bool serial() const { return false; }
+	/// Names of its columns, a.state.lawColumns[name] in advance(): made of zeros when it first works, part of the state from then on.
+	virtual std::vector<std::string> columns() const { return {}; }
+	/// What it is called where something is wrong with it.
+	virtual std::string name() const { return "the joint law"; }
 };
 
 /// Motion and stresses of all joints by such a law, range by range.

@@ -140,6 +140,17 @@ void askWhether(BlockAssembly& a, int joint)
 	if (!a.state.search.loosened[joint] && !isWhole(a, joint)) a.contacts.loosening.push_back(joint);
 }
 
+void noteBroken(BlockAssembly& a, std::vector<Joint>& known)
+{
+	const auto& status = a.state.status;
+	const bool  first  = known.size() != status.size();
+	for (size_t batch = 0; batch < a.forces.broke.size(); ++batch) {
+		const size_t from = 2 * batch * Joints::batch, to = std::min(from + 2 * Joints::batch, status.size());
+		if (first || !std::equal(status.begin() + from, status.begin() + to, known.begin() + from)) a.forces.broke[batch] = true;
+	}
+	known = status;
+}
+
 void collectBroken(BlockAssembly& a)
 {
 	FreeContacts& f      = a.contacts;

@@ -8,6 +8,10 @@ namespace blocks {
 /// Takes note of a joint that is to be released, or lets go of the corners at its ends.
 void askWhether(BlockAssembly&, int joint);
 
+/// Takes note of the batches of joints in which a point has another status than the `known` one, and of all where nothing is known; `known` becomes the
+/// present one. For laws that do not say what they break.
+void noteBroken(BlockAssembly&, std::vector<Joint>& known);
+
 /// Joints of which a point broke in the last step wait for their release.
 void collectBroken(BlockAssembly&);
 
