@@ -437,7 +437,7 @@ def codeOf(model):
 	"""What a calibration depends on besides its Fit: YADE and the code of the runs, whatever its comments."""
 	parts = [
 		house / "scripts" / ("polyhedra.py" if model == "polyhedra" else "spheres.py"),
-		*(house / "py" / "yadeblocks" / f"{name}.py" for name in ("packing", "loading", "curves"))
+		*(house / "py" / "yadeblocks" / f"{name}.py" for name in ("packing", "loading/approach", "loading/stop", "curves"))
 	]
 	return fingerprint((), yadeVersion(), *map(study.meaning, parts))[:16]
 

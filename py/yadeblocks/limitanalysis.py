@@ -15,7 +15,9 @@ import numpy as np
 
 from ._calls import door
 from ._kinds import shown
-from .export import areasAndCentroids
+from .plane import cross, left
+from .readings.blocks import areasAndCentroids
+from .readings.status import intact, neverBonded
 
 #: load: the multiplier [-] or the force [N] at the limit; sigma, tau: stresses of the contact points there, tension positive [Pa], in general not the only
 #: possible ones; mechanism: how the blocks then move, velocity of the centroid [m/s] and rotation [rad/s], (blocks, 3), so that the load's power is 1 W, or
@@ -79,7 +81,7 @@ class _Problem:
 		size, moved = np.ptp(np.asarray(model.reference), axis=0).max(), abs(np.asarray(model.position) - model.reference).max()
 		if moved > roundings * size:
 			raise RuntimeError(f'limit analysis: the model must be as it was built; grid points have moved by up to {moved:.3g} m')
-		changed = np.count_nonzero(~np.isin(model.pointStatus, (0, 3)))
+		changed = np.count_nonzero(~np.isin(model.pointStatus, (intact, neverBonded)))
 		if changed: raise RuntimeError(f'limit analysis: joints must be as they were built; {changed} contact points have broken or soften')
 		self.moves = np.ones(self.blocks, bool)
 		if fixed is not None:
@@ -151,13 +153,12 @@ class _Problem:
 		model = self.model
 		both = lambda column: np.repeat(np.asarray(column), 2, axis=0) # two contact points a joint
 		properties = {name: both(column) for name, column in model.jointProperties.items()}
-		never = np.asarray(model.pointStatus) == 3
+		never = np.asarray(model.pointStatus) == neverBonded
 		self.cohesion, self.tension = (np.where(never, 0, properties[name]) for name in ('cohesion', 'tension'))
 		self.friction = np.tan(np.where(never, properties['frictionAngleResidual'], properties['frictionAngle']))
 		self.area, self.points = both(model.segmentArea), len(never)
 		normal, places = both(model.normal), np.asarray(model.contactPositions())
-		along = np.column_stack([-normal[:, 1], normal[:, 0]])
-		for direction in (normal, along): # a tension draws the first block to the second
+		for direction in (normal, left(normal)): # a tension draws the first block to the second
 			columns = self._columns(self.points, 1, force=False)
 			for side, sign in ((0, 1), (1, -1)):
 				self._force(both(model.segmentBlocks)[:, side], columns, places, sign * self.area[:, None] * direction)
@@ -181,7 +182,7 @@ class _Problem:
 
 	def _force(self, blocks, columns, places, forces):
 		arm = places - self.centroids[blocks]
-		for axis, values in enumerate((forces[:, 0], forces[:, 1], arm[:, 0] * forces[:, 1] - arm[:, 1] * forces[:, 0])):
+		for axis, values in enumerate((forces[:, 0], forces[:, 1], cross(arm, forces))):
 			self.entries.append((3 * blocks + axis, columns, values))
 
 

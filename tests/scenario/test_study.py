@@ -111,8 +111,9 @@ def test_sourcesAreFollowed(tree):
 
 
 def test_realScriptsKnowTheirSources():
-	found = {path.name for path in provenance.sourcesOf(package.parents[1] / "scripts/tension.py", package)}
-	assert {"tension.py", "results.py", "scenario.py", "specimen.py", "export.py", "_plugin.py"} <= found and "packing.py" not in found
+	found = {path.relative_to(package.parents[1]).as_posix() for path in provenance.sourcesOf(package.parents[1] / "scripts/tension.py", package)}
+	modules = "__init__ _plugin specimen results/__init__ results/cracks scenario/parsing export/paraview readings/names".split()
+	assert {"scripts/tension.py", *(f"py/yadeblocks/{module}.py" for module in modules)} <= found and "py/yadeblocks/packing.py" not in found
 
 
 @pytest.mark.parametrize("changed", ["scripts/mine.py", "py/yadeblocks/export.py"])
