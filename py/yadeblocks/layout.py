@@ -15,6 +15,7 @@ import numpy as np
 from ._calls import door
 from .plane import unit
 from .polygons import area, corners, counterClockwise, needShapely
+from .readings.joints import onEdge
 
 
 class Layout:
@@ -113,9 +114,7 @@ class Placed:
 		ours = place[pairs]
 		within = (ours >= 0).all(axis=1)
 		names = np.where((ours >= 0).any(axis=1), self.outside, '').astype(object)
-		ends = np.asarray(model.reference)[np.asarray(model.segmentNodes)[within, :2]]
-		t = np.asarray(model.segmentParameters)[within, :2, None]
-		ends = (1 - t) * ends[:, :1] + t * ends[:, 1:]
+		ends = onEdge(model, model.reference, 0)[within]
 		pieces = self.layout.pieces[ours[within]]
 		names[within] = self.layout.nameOf(np.asarray(model.normal)[within], ends, pieces[:, 0] == pieces[:, 1])
 		return {name: np.flatnonzero(names == name) for name in sorted(set(names) - {''})}
