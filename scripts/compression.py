@@ -27,14 +27,12 @@ import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
 from yadeblocks.engines import loopList
-from yadeblocks.export import writeFilm
 from yadeblocks.pace import Pace
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
-from yadeblocks.snapshot import Film, Snapshot
 from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -120,7 +118,7 @@ def crush(stage, seed, steps):
 	floor, cracks = 1e-3 * mortarJoint['tension'] * area, Cracks(model)
 	stop = loading.Stop(drop=last, displacement=(1.5 if softens else 1) * p.stroke)
 	wider = Gauge(model, left, right, 'x')
-	film = Film(model, p.frames if p.vtk or p.movie != 'none' else 0)
+	film = pictures.filmOf(p, model)
 	pace = Pace(model, lambda: model.groupForce('platen'), lambda: model.groupForce('bottom'), stage.label)
 	record = Recorder(
 		strain=lambda: -model.groupTravelled('platen') / height, stress=lambda: -model.groupForce('platen') / area, lateral=lambda: wider() / p.width,
@@ -181,12 +179,11 @@ with Session(p) as session:
 						'postpeak_energy', 'N/mm', 1e-3 * curves.behindPeak(height * strain, stress, last),
 						*experiments.compressiveFractureEnergy
 					)
-					for cause, energy in energies.dissipated().items():
-						run.add('dissipated_' + cause, 'J', energy)
+					energies.addDissipated(run, 'J')
 				run.add('strain_at_peak', '1', strain[peak])
 				run.add('lateral_strain_at_peak', '1', lateral[peak])
 				run.add('lateral_by_vertical_strain', '1', slope(lateral))
-				run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
+				run.add('first_crack_stress', 'MPa', curves.atFirst(broken, stress) / 1e6)
 				run.add('first_crack_height', 'mm', cracks.first[0][1] * 1e3)
 				run.add(
 					'first_crack_in_mortar', '1', cracks.first[1] != 'unit-unit' if cracks.first[1] else np.nan
@@ -200,13 +197,10 @@ with Session(p) as session:
 				run.curve(strain_permille=1e3 * strain, stress_MPa=stress / 1e6, lateral_permille=1e3 * lateral, broken=broken)
 				run.model(model, steps=O.iter, **engineCosts(model, O.iter))
 				run.quality(
-					unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max(), energy_error=energies.error() if softens else None
+					unbalanced_ratio_max=curves.largestBehindStart(record['unbalanced']), energy_error=energies.error() if softens else None
 				)
 			if seed == p.seed:
-				session.picture('cracks.png', pictures.drawCracks, model, title='Prism in compression, seed %d' % seed)
-				if p.sheets: pictures.drawSheets(session, film, model, 'Prism in compression, seed %d' % seed)
-				pictures.drawFilm(session, film, model, 'Prism in compression, seed %d' % seed)
-				if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
+				pictures.drawRun(session, film, model, 'Prism in compression, seed %d' % seed)
 		if p.halfRate and session.wants(seed, 'half_rate_change'):
 			slow = crush(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]
 			strength = curves.peak(slow['strain'], slow['stress'])[0] / 1e6

@@ -32,14 +32,12 @@ import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
 from yadeblocks.engines import loopList
-from yadeblocks.export import writeFilm
 from yadeblocks.pace import Pace
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
-from yadeblocks.snapshot import Film, Snapshot
 from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -125,7 +123,7 @@ def shear(stage, seed, steps):
 	below, above = nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit')
 	floor, cracks = 1e-3 * max(p.sigma, joint['tension']) * area, Cracks(model)
 	slip, uplift = Gauge(model, below, above, 'x'), Gauge(model, below, above, 'y')
-	film = Film(model, p.frames if p.vtk or p.movie != 'none' else 0)
+	film = pictures.filmOf(p, model)
 	record = Recorder(
 		displacement=slip, stress=lambda: model.groupForce('shear') / area, uplift=uplift, broken=cracks.look,
 		yielded=lambda: np.count_nonzero(model.pointStatus), unbalanced=lambda: model.unbalancedRatio(floor=floor), exact=lambda: 0
@@ -193,7 +191,7 @@ with Session(p) as session:
 				strength, peak = curves.peak(displacement[path], stress[path])
 				run.add('peak_shear_stress', 'MPa', strength / 1e6, *peakExpected)
 				if p.afterPeak: run.add('residual_shear_stress', 'MPa', curves.residual(displacement, stress) / 1e6, *residualExpected)
-				run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
+				run.add('first_crack_stress', 'MPa', curves.atFirst(broken, stress) / 1e6)
 				run.add('first_crack_point', '1', cracks.firstPoint if cracks.first[1] else np.nan) # its number in the model
 				run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
 				run.add('first_crack_place', 'mm', cracks.first[0][0] * 1e3) # from the left end
@@ -203,21 +201,17 @@ with Session(p) as session:
 				if softens:
 					run.add('fracture_energy', 'N/m', energies.spent() / area) # friction included
 					run.add('energy_above_residual', 'N/m', curves.aboveResidual(displacement, stress))
-					run.add('crack_length', '1', (cracks.areas * model.pointDamage).sum() / area) # by damage, over the section
-					for cause, energy in energies.dissipated().items():
-						run.add('dissipated_' + cause, 'N/m', energy / area)
+					run.add('crack_length', '1', cracks.length(area)) # by damage, over the section
+					energies.addDissipated(run, 'N/m', area)
 				ofPath = {'exact': record['exact']} if exact.any() else {}
 				run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, uplift_mm=1e3 * uplift, broken=broken, **ofPath)
 				run.model(model, steps=O.iter, **engineCosts(model, O.iter))
 				run.quality(
-					unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max(), energy_error=energies.error() if softens else None
+					unbalanced_ratio_max=curves.largestBehindStart(record['unbalanced']), energy_error=energies.error() if softens else None
 				)
 			if seed == p.seed:
 				title = 'Couplet in shear, precompression %g N/mm², seed %d' % (p.sigma / 1e6, seed)
-				session.picture('cracks.png', pictures.drawCracks, model, title=title)
-				if p.sheets: pictures.drawSheets(session, film, model, title)
-				pictures.drawFilm(session, film, model, title)
-				if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
+				pictures.drawRun(session, film, model, title)
 		if p.halfRate and session.wants(seed, 'half_rate_change'):
 			slow = shear(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]
 			strength = curves.peak(slow['displacement'], slow['stress'])[0] / 1e6

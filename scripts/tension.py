@@ -39,14 +39,12 @@ import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
 from yadeblocks.engines import loopList
-from yadeblocks.export import writeFilm
 from yadeblocks.pace import Pace
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
-from yadeblocks.snapshot import Film, Snapshot
 from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
 # ---- parameters (SI)
@@ -132,7 +130,7 @@ def pull(stage, seed, steps):
 	)
 	floor, cracks = 1e-3 * unitJoint['tension'] * area, Cracks(model)
 	stop = loading.Stop(drop=p.tail, displacement=30 * stroke) if softens else loading.Stop(drop=0.5, displacement=2 * stroke)
-	film = Film(model, p.frames if p.vtk or p.movie != 'none' else 0)
+	film = pictures.filmOf(p, model)
 	record = Recorder(
 		displacement=gauge, stress=lambda: model.groupForce('top') / area, broken=cracks.look, yielded=lambda: np.count_nonzero(model.pointStatus),
 		unbalanced=lambda: model.unbalancedRatio(floor=floor)
@@ -185,12 +183,11 @@ def seriesStiffness():
 	return experiments.seriesStiffness(mortarHeight, p.mortarYoung, mortar['poisson'], unitJoint['kn'], side, p.plane == 'strain')
 
 
-def addEnergies(run, model, cracks):
+def addEnergies(run, cracks):
 	"""By the section [N/m]."""
 	run.add('fracture_energy', 'N/m', energies.spent() / area)
-	run.add('crack_length', '1', (cracks.areas * model.pointDamage).sum() / area) # by damage, over the section
-	for cause, energy in energies.dissipated().items():
-		run.add('dissipated_' + cause, 'N/m', energy / area)
+	run.add('crack_length', '1', cracks.length(area)) # by damage, over the section
+	energies.addDissipated(run, 'N/m', area)
 
 
 # ---- running
@@ -210,23 +207,20 @@ with Session(p) as session:
 				else: elastic = (yielded == 0) & ((stress > 0.1 * strength) | p.jump) # from where a smooth start is over
 
 				run.add('peak_tensile_stress', 'MPa', strength / 1e6, expectedPeak, source)
-				run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
+				run.add('first_crack_stress', 'MPa', curves.atFirst(broken, stress) / 1e6)
 				run.add('first_crack_point', '1', cracks.firstPoint if cracks.first[1] else np.nan) # its number in the model
 				slope = np.polyfit(displacement[elastic], stress[elastic], 1)[0]
 				run.add('joint_stiffness', 'N/mm3', slope / 1e9, seriesStiffness() / 1e9, 'series of mortar and joints')
 				run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
 				run.add('crack_share_unit-mortar', '1', cracks.share('unit-mortar'))
-				if softens: addEnergies(run, model, cracks)
+				if softens: addEnergies(run, cracks)
 				run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, broken=broken)
 				run.model(model, steps=O.iter, **engineCosts(model, O.iter))
 				run.quality(
-					unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max(), energy_error=energies.error() if softens else None
+					unbalanced_ratio_max=curves.largestBehindStart(record['unbalanced']), energy_error=energies.error() if softens else None
 				)
 			if seed == p.seed:
-				session.picture('cracks.png', pictures.drawCracks, model, title='%s, seed %d' % (title, seed))
-				if p.sheets: pictures.drawSheets(session, film, model, '%s, seed %d' % (title, seed))
-				pictures.drawFilm(session, film, model, '%s, seed %d' % (title, seed))
-				if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
+				pictures.drawRun(session, film, model, '%s, seed %d' % (title, seed))
 		if p.halfRate and session.wants(seed, 'half_rate_change'):
 			slow = pull(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]
 			strength = curves.peak(slow['displacement'], slow['stress'])[0] / 1e6

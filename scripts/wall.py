@@ -27,7 +27,6 @@ import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import brickwork, curves, loading, pictures, scenario
 from yadeblocks.engines import find, loopList
-from yadeblocks.export import writeFilm
 from yadeblocks.layout import Mortared
 from yadeblocks.pace import Pace
 from yadeblocks.progress import Progress, loadingLine
@@ -35,7 +34,6 @@ from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
-from yadeblocks.snapshot import Film, Snapshot
 
 # ---- parameters (SI)
 
@@ -135,7 +133,7 @@ def nearDiagonal(model):
 def shear(stage, seed):
 	"""The model; the recorder of displacement [m], forces at the top and the base and normal force [N] and cracked contact points; the film."""
 	model = stage.model or build(seed)
-	cracks, film, stop = Cracks(model), Film(model, p.frames if p.vtk or p.movie != 'none' else 0), loading.Stop(displacement=p.stroke)
+	cracks, film, stop = Cracks(model), pictures.filmOf(p, model), loading.Stop(displacement=p.stroke)
 	record = Recorder(
 		displacement=lambda: model.groupTravelled('side'), force=lambda: model.groupForce('side'), base=lambda: -model.groupForce('base', axis='x'),
 		normal=lambda: -model.groupForce('press'), broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=1e-2 * load),
@@ -156,13 +154,6 @@ def shear(stage, seed):
 	return model, record, cracks, film
 
 
-def firstPeak(force):
-	"""Index of the highest force before it falls by 5 % for the first time; what oscillates below half of the highest is none."""
-	highest = np.maximum.accumulate(force)
-	fallen = np.flatnonzero((force < 0.95 * highest) & (highest > force.max() / 2))
-	return int(np.argmax(force[:fallen[0] if len(fallen) else len(force)]))
-
-
 # ---- running
 
 with Session(p) as session:
@@ -173,7 +164,7 @@ with Session(p) as session:
 			force, displacement = record['force'], record['displacement']
 			strength, peak = curves.peak(displacement, force)
 			run.add('peak_shear_force', 'kN', strength / 1e3, 57., source)
-			first = firstPeak(force)
+			first = curves.firstPeak(force)
 			run.add('first_peak_force', 'kN', force[first] / 1e3, 57., source)
 			run.add('displacement_at_first_peak', 'mm', 1e3 * displacement[first], 1.0, 'the digitised curve')
 			run.add('base_by_top_at_first_peak', '1', record['base'][first] / force[first], 1.0, 'equilibrium: inertia and damping take the rest')
@@ -187,12 +178,9 @@ with Session(p) as session:
 			)
 			run.add('damage_near_the_diagonal', '1', nearDiagonal(model))
 			run.model(model, steps=O.iter)
-			run.quality(unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max())
+			run.quality(unbalanced_ratio_max=curves.largestBehindStart(record['unbalanced']))
 		if seed == p.seed:
-			session.picture('cracks.png', pictures.drawCracks, model, title='Shear wall J4D')
-			if p.sheets: pictures.drawSheets(session, film, model, 'Shear wall J4D')
-			pictures.drawFilm(session, film, model, 'Shear wall J4D')
-			if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
+			pictures.drawRun(session, film, model, 'Shear wall J4D')
 	session.write()
 	session.picture(
 		'curve.png', pictures.drawCurve, session.results.curves, 'displacement_mm', 'force_kN',

@@ -11,4 +11,4 @@ What goes on within a specimen is drawn by `yadeblocks.picturesfields`."""
 from .cracks import drawCracks
 from .curve import Reference, drawCurve
 from .mechanism import drawMechanism
-from .session import drawFilm, drawSheets
+from .session import drawFilm, drawRun, drawSheets, filmOf

@@ -66,6 +66,10 @@ class Cracks:
 		"""Takes the contact points in the order of breaking from who knows it (`crackPoint` of `BlockModel.follow`)."""
 		if len(points): self._note(points[0])
 
+	def length(self, section):
+		"""What is cracked, by its damage, over a section [m2]."""
+		return (self.areas * self.model.pointDamage).sum() / section
+
 	def _note(self, point):
 		self.first, self.firstPoint = (tuple(np.asarray(self.model.contactPositions())[point]), self.pairs[point]), point
 

@@ -2,6 +2,7 @@
 """Results as a table for the terminal."""
 import math
 
+from ..curves import fall
 from .jsonable import jsonable
 
 
@@ -34,7 +35,7 @@ def _remarks(results):
 					("contacts", "contact points"), ("ns_per_zone", "ns/zone"), ("ns_per_contact", "ns/contact point"))
 		if told["cost"].get(key) is not None
 	]
-	return [f"no peak in seed {rising}: the stress did not fall by 5 % after its highest value before it ended"
+	return [f"no peak in seed {rising}: the stress did not fall by {100 * fall:g} % after its highest value before it ended"
 		] * bool(rising) + ["quality: " + ", ".join(quality)] * bool(quality) + ["one run: " + ", ".join(cost)] * bool(cost) + [
 			f"see {results.folder}"
 		]
