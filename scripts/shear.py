@@ -30,7 +30,7 @@ import numpy as np
 
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
+from yadeblocks import curves, energies, experiments, loading, masonry, pictures, scenario, softening
 from yadeblocks.engines import loopList
 from yadeblocks.pace import Pace
 from yadeblocks.progress import Progress, loadingLine
@@ -42,16 +42,16 @@ from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
 # ---- parameters (SI)
 
-length, brickHeight, thickness, mortarHeight = 0.2, 0.05, 0.05, 0.015 # [m]
-brick, mortar = dict(poisson=0.2, density=1900), dict(poisson=0.2, density=3250) # Table 4
-moduli = scenario.usualParameters(unitYoung=16.7e9, mortarYoung=2.974e9)
+bricks, length, brickHeight, mortarHeight, thickness, stroke, brick, mortar = masonry.shearCouplet
+moduli = scenario.usualParameters(unitYoung=brick['young'], mortarYoung=mortar['young'])
 residualFriction = degrees(atan(experiments.residualFriction))
-shared = dict(kn=400e9, ks=200e9, dilation=0.) # Table 5
+table5, shared = masonry.table5, dict(masonry.stiffnesses, dilation=0.)
 measured = {name: softening.measured[name] for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII', 'GfIIPressure', 'lastingShare')}
 sets = { # angles in degrees
 	'paper': dict(
-		shared, cohesion=3e6, tension=1.5e6, friction=45., residualFriction=36., GfI=0., GfII=0., GfIIPressure=0., lastingShare=0., mortarStrengths=1.
-	), # Table 5
+		shared, cohesion=table5['cohesion'], tension=table5['tension'], friction=degrees(table5['frictionAngle']),
+		residualFriction=degrees(table5['frictionAngleResidual']), GfI=0., GfII=0., GfIIPressure=0., lastingShare=0., mortarStrengths=1.
+	),
 	'measured': dict(
 		measured, friction=degrees(softening.measured['frictionAngle']), residualFriction=residualFriction, dilation=0., mortarStrengths=1.
 	),
@@ -60,15 +60,12 @@ sets = { # angles in degrees
 		GfIIPressure=0., lastingShare=1., mortarStrengths=3.
 	),
 }
-brickJoint = dict(
-	kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6
-) # with units=voronoi; Table 9, since none is given for these bricks
 velocity = 0.2e-3 # [m/s]
 pressSteps = 2000
 
 p = scenario.parameters({
 	**scenario.commonParameters(sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2), **scenario.usualParameters(
-		sigma=0.5e6, stroke=1e-3, approach=0.2, solver='steps', release='path', jump=True, servo=False, units='plain', cells='voronoi', edgeSegments=1
+		sigma=0.5e6, stroke=stroke, approach=0.2, solver='steps', release='path', jump=True, servo=False, units='plain', cells='voronoi', edgeSegments=1
 	), 'afterPeak': Key(True, 'go on behind the peak, to the residual stress'), 'contact': Key(True, 'blocks that share no joint may meet'),
 	'size': Key(3.5e-3, 'size of the Voronoi cells', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer')),
 	'joints': Key('paper', 'brittle joints of Table 5, or joints that soften',
@@ -92,8 +89,8 @@ peakExpected, residualExpected = experiments.peakShearStress(p.sigma), experimen
 def build(seed, dt):
 	"""The couplet in the scene."""
 	O.reset()
-	O.materials.append(BlockMat(label='unit', young=p.unitYoung, **brick))
-	O.materials.append(BlockMat(label='mortar', young=p.mortarYoung, **mortar))
+	O.materials.append(BlockMat(label='unit', **{**brick, 'young': p.unitYoung}))
+	O.materials.append(BlockMat(label='mortar', **{**mortar, 'young': p.mortarYoung}))
 	model = BlockModel(thickness=thickness, planeStress=p.plane == 'stress')
 	options = dict(lloyd=p.lloyd, seed=seed, mergeFraction=p.merge, edgeSegments=p.edgeSegments)
 	addCells(model, p.cells, rectangle(0, low, length, high), 'mortar', size=p.size, sizeMeaning=p.sizeMeaning, **options)
@@ -104,7 +101,7 @@ def build(seed, dt):
 		JointMat(material1='mortar', material2='mortar', **softening.stronger(joint, p.mortarStrengths)),
 		JointMat(material1='unit', material2='mortar', **joint)
 	]
-	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **brickJoint))
+	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **masonry.brickJoint))
 	model.bond(joints)
 	softening.scatterStrengths(model, p, seed)
 	top = nodesWhere(model, lambda x, y: y > high + brickHeight - 1e-9)

@@ -37,7 +37,7 @@ import numpy as np
 
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
+from yadeblocks import curves, energies, experiments, loading, masonry, pictures, scenario, softening
 from yadeblocks.engines import loopList
 from yadeblocks.pace import Pace
 from yadeblocks.progress import Progress, loadingLine
@@ -49,23 +49,17 @@ from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
 # ---- parameters (SI)
 
-length, brickHeight, thickness, mortarHeight = 0.1, 0.05, 0.05, 0.015 # [m]
-brick, mortar = dict(poisson=0.2, density=1900), dict(poisson=0.2, density=1250) # Table 1
-moduli = scenario.usualParameters(unitYoung=16.7e9, mortarYoung=2.974e9)
-table2 = dict(kn=400e9, ks=200e9, frictionAngle=radians(38), cohesion=0.75e6, tension=0.75e6, dilationAngle=radians(4))
-table3 = dict(table2, cohesion=0.60e6, tension=0.60e6)
-brickJoint = dict(
-	kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6
-) # with units=voronoi; Table 9, since none is given for these bricks
+bricks, length, brickHeight, mortarHeight, thickness, stroke, brick, mortar = masonry.tensionCouplet
+moduli = scenario.usualParameters(unitYoung=brick['young'], mortarYoung=mortar['young'])
 cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [MPa], its source
-	'TT1': (table2, table3, 2e-3, *experiments.tensileStrength),
-	'TT2': (table3, table3, 2e-3, *experiments.tensileStrengthOfPaper[2e-3]),
-	'TT2b': (table2, table2, 2e-3, None, None),
-	'TT3': (table3, table3, 6e-3, *experiments.tensileStrengthOfPaper[6e-3]),
+	'TT1': (masonry.table2, masonry.table3, 2e-3, *experiments.tensileStrength),
+	'TT2': (masonry.table3, masonry.table3, 2e-3, *experiments.tensileStrengthOfPaper[2e-3]),
+	'TT2b': (masonry.table2, masonry.table2, 2e-3, None, None),
+	'TT3': (masonry.table3, masonry.table3, 6e-3, *experiments.tensileStrengthOfPaper[6e-3]),
 }
 softeningSets = {'measured': softening.measured, 'calibrated': dict(softening.measured, tension=0.39e6)} # all joints alike
 scatterOfSets = {'calibrated': 0.2}
-stroke, velocity = 0.03e-3, 0.02e-3 # [m], [m/s]
+velocity = 0.02e-3 # [m/s]
 faster, growth = 20, 1.004 # behind the peak, where joints soften: up to so many times as fast, by so much from look to look
 
 p = scenario.parameters({
@@ -101,8 +95,8 @@ area, duration = length * thickness, stroke / velocity
 def build(seed):
 	"""The couplet in the scene."""
 	O.reset()
-	O.materials.append(BlockMat(label='unit', young=p.unitYoung, **brick))
-	O.materials.append(BlockMat(label='mortar', young=p.mortarYoung, **mortar))
+	O.materials.append(BlockMat(label='unit', **{**brick, 'young': p.unitYoung}))
+	O.materials.append(BlockMat(label='mortar', **{**mortar, 'young': p.mortarYoung}))
 	low, high = brickHeight, brickHeight + mortarHeight
 	model = BlockModel(thickness=thickness, planeStress=p.plane == 'stress')
 	options = dict(lloyd=p.lloyd, seed=seed, mergeFraction=p.merge, edgeSegments=p.edgeSegments)
@@ -111,7 +105,7 @@ def build(seed):
 		if p.units == 'plain': model.addRegion(outline, 'unit', zoneSize=p.brickZone)
 		else: model.addVoronoi(outline, 'unit', size=p.brickZone, lloyd=3, seed=1000 * seed + number, edgeSegments=p.edgeSegments)
 	joints = [JointMat(material1='mortar', material2='mortar', **mortarJoint), JointMat(material1='unit', material2='mortar', **unitJoint)]
-	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **brickJoint))
+	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **masonry.brickJoint))
 	model.bond(joints)
 	softening.scatterStrengths(model, p, seed)
 	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
