@@ -549,7 +549,7 @@ def test_staleCalibrationIsTold(study5):
 	assert "Calibrated with other" not in study5("quick")
 	for name, old, new, said in [("scripts/spheres.py", "coarser=2, steps=20000", "coarser=2, steps=10000", "code"),
 					("py/yadeblocks/packing.py", "solidity = 0.86", "solidity = 0.9", "code"),
-					("scripts/benchmark.py", "22 * q", "21 * q", "parameters"),
+					("scripts/laboratory/yadefits.py", "22 * q", "21 * q", "parameters"),
 					("py/yadeblocks/curves.py", "noise = 0.02", "noise = 0.03", "code"),
 					("py/yadeblocks/experiments.py", "tensileStrength = 0.35", "tensileStrength = 0.36", "targets")]:
 		path = study5.file(name)
