@@ -454,6 +454,12 @@ def test_modulesNeedNoYade():
 	assert asked.returncode and "yadeblocks needs YADE: there is no /nowhere/lib/*/yade-double/py" in asked.stderr
 
 
+@pytest.mark.parametrize("name, now", [("jobs", "laboratory.jobs"), ("study", "laboratory.study and yadeblocks.provenance")])
+def test_modulesThatHaveMoved(name, now):
+	run = outsideYade(f"from yadeblocks import {name}")
+	assert run.stderr.splitlines()[-1].startswith(f"ImportError: yadeblocks.{name} is {now} now; ")
+
+
 def test_nothingHeavyIsImportedEarly():
 	"""A scenario that does not draw does not pay for matplotlib, meshio and pandas (0.5 to 1 s each)."""
 	modules = "scenario, results, pictures, export, progress, session, engines, recording"
