@@ -19,6 +19,7 @@ from yade import *
 from yadeblocks import curves, loading, masonry, pictures, picturesfields, scenario, softening
 from yadeblocks.engines import loopList
 from yadeblocks.pace import Pace
+from yadeblocks.readings.blocks import blockOfNodes
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks
 from yadeblocks.scenario import Key
@@ -58,8 +59,7 @@ def build(sigma):
 	near = 0.3 * height # the supports, beside the joints
 	outer = lambda x, y: (y < 1e-9) & (((x < height + 1e-9) & (x > height - near)) | ((x > 2 * height - 1e-9) & (x < 2 * height + near)))
 	feet = nodesWhere(model, outer)
-	block = np.searchsorted(model.firstNode, feet, side='right') - 1
-	model.drive('supports', feet[block != 1], 'y')
+	model.drive('supports', feet[blockOfNodes(model)[feet] != 1], 'y')
 	middle = np.arange(model.firstNode[1], model.firstNode[2])
 	model.drive('ram', middle[model.reference[middle, 1] > length - 1e-9], 'y', velocity=0)
 	model.drive('wall', nodesWhere(model, lambda x, y: x < 1e-9), 'x')

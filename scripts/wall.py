@@ -30,6 +30,7 @@ from yadeblocks.engines import find, loopList
 from yadeblocks.layout import Mortared
 from yadeblocks.pace import Pace
 from yadeblocks.progress import Progress, loadingLine
+from yadeblocks.readings.blocks import blockOfNodes
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks
 from yadeblocks.scenario import Key
@@ -112,7 +113,7 @@ def build(seed):
 def endCourse(model, placed, course):
 	"""Grid points of the lowest or the highest course, with those of the mortar between its bricks."""
 	blocks = placed.blocks[placed.layout.notes['courseOf'] == course]
-	own = np.repeat(np.isin(np.arange(len(model.blockMaterial)), blocks), np.diff(model.firstNode))
+	own = np.isin(blockOfNodes(model), blocks)
 	if p.detail == 'interface': return np.flatnonzero(own)
 	y, edge = model.reference[:, 1], model.reference[own, 1]
 	return np.flatnonzero(own | (y > edge.min() + 1e-9 if course else y < edge.max() - 1e-9))

@@ -16,7 +16,8 @@ import numpy as np
 from ._calls import door
 from ._kinds import shown
 from .plane import cross, left
-from .readings.blocks import areasAndCentroids
+from .readings.blocks import areasAndCentroids, blockOfNodes
+from .readings.materials import ofMaterials
 from .readings.status import intact, neverBonded
 
 #: load: the multiplier [-] or the force [N] at the limit; sigma, tau: stresses of the contact points there, tension positive [Pa], in general not the only
@@ -31,8 +32,7 @@ roundings = 1e-12
 @door(model='blockModel', acceleration='point')
 def bodyForces(model, acceleration):
 	"""Mass times an acceleration [m/s2] for every block, at its centroid, (blocks, 2) [N]: weights with (0, -9.81)."""
-	from yade import O
-	density = np.array([O.materials[label].density for label in model.materialLabels])[model.blockMaterial]
+	density = ofMaterials(model, 'density')[model.blockMaterial]
 	areas, _ = areasAndCentroids(model)
 	return (density * areas * model.thickness)[:, None] * np.asarray(acceleration, float)
 
@@ -164,13 +164,13 @@ class _Problem:
 				self._force(both(model.segmentBlocks)[:, side], columns, places, sign * self.area[:, None] * direction)
 
 	def _groups(self, asked):
-		model, first = self.model, np.asarray(self.model.firstNode)
+		model, blocks = self.model, blockOfNodes(self.model)
 		for group in model.groups:
 			nodes = np.asarray(model.groupNodes(group))
 			for axis in model.groupAxes(group):
 				columns = self.held[group, axis] = self._columns(len(nodes), 1, force=True)
 				unit = np.tile((axis == 'x', axis == 'y'), (len(nodes), 1)).astype(float)
-				self._force(np.searchsorted(first, nodes, side='right') - 1, columns, np.asarray(model.reference)[nodes], unit)
+				self._force(blocks[nodes], columns, np.asarray(model.reference)[nodes], unit)
 			push = model.groupPushForce(group)
 			if push is not None and group != asked: # along its one axis
 				self.entries.append((np.full(len(columns), len(self.right)), columns, np.ones(len(columns))))

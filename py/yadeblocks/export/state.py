@@ -3,6 +3,7 @@
 import numpy as np
 
 from .._calls import door
+from ..readings.blocks import rigidBlocks
 from ..readings.contacts import freeContactLines
 from ..readings.joints import contactLines
 from ..readings.present import Present
@@ -25,7 +26,7 @@ class State:
 def _zones(model, untouched):
 	"""Arguments of writeGrid."""
 	there = Present(model, everything=untouched)
-	rigid = np.flatnonzero(np.diff(model.firstZone) == 0)
+	rigid = rigidBlocks(model)
 	triangles = [np.reshape(model.zoneNodes, (-1, 3)), *map(model.cornerTriangles, rigid.tolist())]
 	blocks = np.repeat([*range(len(model.blockMaterial)), *rigid], [*np.diff(model.firstZone), *map(len, triangles[1:])]).astype(np.int32)
 	stress = np.zeros((len(blocks), 3)) # none in rigid blocks

@@ -4,6 +4,7 @@ import numpy as np
 
 from .._calls import door
 from .._words import requireOneOf
+from ..readings.blocks import rigidBlocks
 from ..readings.zones import outOfPlaneStress, principalStresses, vonMises
 from .blocks import drawOutlines
 from .panel import drawAlone, pointsHigh
@@ -31,7 +32,7 @@ def showField(axes, view, what, most=None):
 	values = values / factor
 	drawOutlines(axes, view, "#EDEDED")
 	if what in ("u", "ux", "uy"):
-		rigid = np.flatnonzero(np.diff(model.firstZone) == 0).tolist()
+		rigid = rigidBlocks(model).tolist()
 		triangles = np.concatenate([np.reshape(model.zoneNodes, (-1, 3))[view.there.zones], *map(model.cornerTriangles, rigid)])
 		colours = axes.tripcolor(*view.shown.T, triangles, values, shading="gouraud", cmap="viridis" if what == "u" else "RdBu_r", zorder=1.5)
 	else:

@@ -4,7 +4,7 @@ import numpy as np
 
 from .._calls import door
 from ..plane import left
-from ..readings.blocks import areasAndCentroids
+from ..readings.blocks import areasAndCentroids, blockOfNodes
 from .blocks import drawBlocks
 from .figure import picture, textWidth
 from .view import windowAround
@@ -18,7 +18,7 @@ def drawMechanism(path, model, mechanism, title=""):
 	if mechanism.shape != (model.blockCount, 3):
 		raise ValueError(f"drawMechanism.mechanism must have the shape ({model.blockCount}, 3), got {mechanism.shape}")
 	reference = np.asarray(model.reference)
-	owner = np.repeat(np.arange(model.blockCount), np.diff(model.firstNode))
+	owner = blockOfNodes(model)
 	arm = reference - areasAndCentroids(model)[1][owner]
 	motion = mechanism[owner, :2] + mechanism[owner, 2:] * left(arm)
 	size, largest = np.ptp(reference, axis=0).max(), np.hypot(*motion.T).max()

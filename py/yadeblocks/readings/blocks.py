@@ -1,9 +1,19 @@
 # yade-blocks, GPL-2.0-or-later
-"""Blocks as polygons: areas, centroids, outlines."""
+"""Blocks: which a grid point is of, which are rigid, and what they are as polygons."""
 import numpy as np
 
 from .._calls import door
 from ..plane import cross
+
+
+def blockOfNodes(model):
+	"""The block of every grid point."""
+	return np.repeat(np.arange(len(model.firstNode) - 1), np.diff(model.firstNode))
+
+
+def rigidBlocks(model):
+	"""Indices of the rigid blocks, which have no zones."""
+	return np.flatnonzero(np.diff(model.firstZone) == 0)
 
 
 @door(model='model')

@@ -2,6 +2,8 @@
 """What holds, drives and presses a model."""
 import numpy as np
 
+from .blocks import rigidBlocks
+
 
 def reactionsOf(model):
 	"""What holds, drives and presses a model: a list of (name, place [m], force on the blocks [N]) of its groups and of held rigid
@@ -15,7 +17,7 @@ def reactionsOf(model):
 
 
 def _heldBlocks(model):
-	rigid = np.flatnonzero(np.diff(model.firstZone) == 0).tolist()
+	rigid = rigidBlocks(model).tolist()
 	if not rigid or model.firstBody < 0: return []
 	from yade.wrapper import Omega
 	O, found = Omega(), []

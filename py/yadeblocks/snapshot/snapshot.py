@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from .._calls import door
+from ..readings.blocks import rigidBlocks
 from ..readings.materials import poissonOf
 from ..readings.reactions import reactionsOf
 
@@ -33,9 +34,7 @@ class Snapshot:
 		self._contacts = {name: np.array(column) for name, column in model.freeContacts().items()} if hasattr(model, "freeContacts") else {}
 		self.reactions = reactionsOf(model)
 		self.poisson = like.poisson if like else poissonOf(model)
-		self._corners = like._corners if like else {
-			block: np.array(model.cornerTriangles(block)) for block in np.flatnonzero(np.diff(model.firstZone) == 0).tolist()
-		}
+		self._corners = like._corners if like else {block: np.array(model.cornerTriangles(block)) for block in rigidBlocks(model).tolist()}
 
 	def zoneStress(self):
 		"""sxx, syy, sxy of every zone, tension positive, (zones, 3) [Pa]."""
