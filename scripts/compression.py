@@ -25,26 +25,22 @@ import numpy as np
 
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
+from yadeblocks import curves, energies, experiments, loading, masonry, pictures, scenario, softening
 from yadeblocks.engines import loopList
-from yadeblocks.export import writeFilm
 from yadeblocks.pace import Pace
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
-from yadeblocks.snapshot import Film, Snapshot
 from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
 # ---- parameters (SI)
 
-brickHeight, mortarHeight, bricks, thickness = 0.05, 0.01, 5, 0.285 # [m]
+bricks, width, brickHeight, mortarHeight, thickness, stroke, brick, mortar = masonry.prism
 height = bricks * brickHeight + (bricks - 1) * mortarHeight
-brick, mortar = dict(poisson=0.2, density=2000), dict(poisson=0.2, density=2000) # Table 7
-moduli = scenario.usualParameters(unitYoung=20e9, mortarYoung=5.8e9)
-mortarJoint = dict(kn=348e9, ks=174e9, frictionAngle=radians(15), cohesion=1.4e6, cohesionResidual=0.28e6, tension=0.7e6) # Table 8, also brick to mortar
-brickJoint = dict(kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, cohesionResidual=3e6, tension=7.5e6) # Table 9
+moduli = scenario.usualParameters(unitYoung=brick['young'], mortarYoung=mortar['young'])
+mortarJoint, brickJoint = dict(masonry.table8), dict(masonry.table9)
 sets = {
 	'paper': {'strengths': 1.0, 'stiffnesses': 1.0, 'GfI': 0.0, 'GfII': 0.0, 'lastingShare': 0.0},
 	'calibrated': {'strengths': 0.44, 'stiffnesses': 0.93, 'GfI': 200.0, 'GfII': 2000.0, 'lastingShare': 0.0}
@@ -55,14 +51,14 @@ common = scenario.commonParameters(sizeMeaning='edge', lloyd=3, steps=30000, alp
 del common['size']
 p = scenario.parameters({
 	**common, **scenario.usualParameters(
-		units='voronoi', cells='voronoi', edgeSegments=1, stroke=3.6e-3, solver='steps', jump=True, servo=False, merge=0.1
+		units='voronoi', cells='voronoi', edgeSegments=1, stroke=stroke, solver='steps', jump=True, servo=False, merge=0.1
 	), 'unitSize': Key(
 		0.01, 'size of the Voronoi cells of bricks, or of the zones of plain ones', 'm',
 		(lambda s: 0 < s < brickHeight, 'must be positive and smaller than a brick')
 	), 'mortarSize': Key(
 		0.003, 'size of the Voronoi cells of mortar', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than a mortar joint')
 	), 'residualFriction': Key('zero', 'friction of broken joints: none, or as before',
-					rule=('zero', 'kept')), 'width': Key(0.285, 'width of the prism', 'm', scenario.positive),
+					rule=('zero', 'kept')), 'width': Key(width, 'width of the prism', 'm', scenario.positive),
 	'joints': Key('paper', 'brittle joints of Tables 8 and 9, or joints that soften',
 			rule=tuple(sets)), **softening.jointKeys(*sets['paper'], 'unitStrengths', 'mortarStrengths', 'unitFriction', 'mortarFriction'),
 	**softening.scatterKeys, **moduli, **scenario.usualParameters(halfRate=False, vtk=True, frames=10, movie='none', sheets=True)
@@ -85,8 +81,8 @@ area, last = p.width * thickness, 0.2 if softens else 0.5 # a run ends at this s
 def build(seed):
 	"""The prism in the scene; every layer has a seed of its own."""
 	O.reset()
-	O.materials.append(BlockMat(label='unit', young=p.unitYoung, **brick))
-	O.materials.append(BlockMat(label='mortar', young=p.mortarYoung, **mortar))
+	O.materials.append(BlockMat(label='unit', **{**brick, 'young': p.unitYoung}))
+	O.materials.append(BlockMat(label='mortar', **{**mortar, 'young': p.mortarYoung}))
 	model, y = BlockModel(thickness=thickness, planeStress=p.plane == 'stress'), 0
 	for layer in range(2 * bricks - 1):
 		label, size, thick = ('mortar', p.mortarSize, mortarHeight) if layer % 2 else ('unit', p.unitSize, brickHeight)
@@ -120,7 +116,7 @@ def crush(stage, seed, steps):
 	floor, cracks = 1e-3 * mortarJoint['tension'] * area, Cracks(model)
 	stop = loading.Stop(drop=last, displacement=(1.5 if softens else 1) * p.stroke)
 	wider = Gauge(model, left, right, 'x')
-	film = Film(model, p.frames if p.vtk or p.movie != 'none' else 0)
+	film = pictures.filmOf(p, model)
 	pace = Pace(model, lambda: model.groupForce('platen'), lambda: model.groupForce('bottom'), stage.label)
 	record = Recorder(
 		strain=lambda: -model.groupTravelled('platen') / height, stress=lambda: -model.groupForce('platen') / area, lateral=lambda: wider() / p.width,
@@ -181,12 +177,11 @@ with Session(p) as session:
 						'postpeak_energy', 'N/mm', 1e-3 * curves.behindPeak(height * strain, stress, last),
 						*experiments.compressiveFractureEnergy
 					)
-					for cause, energy in energies.dissipated().items():
-						run.add('dissipated_' + cause, 'J', energy)
+					energies.addDissipated(run, 'J')
 				run.add('strain_at_peak', '1', strain[peak])
 				run.add('lateral_strain_at_peak', '1', lateral[peak])
 				run.add('lateral_by_vertical_strain', '1', slope(lateral))
-				run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
+				run.add('first_crack_stress', 'MPa', curves.atFirst(broken, stress) / 1e6)
 				run.add('first_crack_height', 'mm', cracks.first[0][1] * 1e3)
 				run.add(
 					'first_crack_in_mortar', '1', cracks.first[1] != 'unit-unit' if cracks.first[1] else np.nan
@@ -200,13 +195,10 @@ with Session(p) as session:
 				run.curve(strain_permille=1e3 * strain, stress_MPa=stress / 1e6, lateral_permille=1e3 * lateral, broken=broken)
 				run.model(model, steps=O.iter, **engineCosts(model, O.iter))
 				run.quality(
-					unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max(), energy_error=energies.error() if softens else None
+					unbalanced_ratio_max=curves.largestBehindStart(record['unbalanced']), energy_error=energies.error() if softens else None
 				)
 			if seed == p.seed:
-				session.picture('cracks.png', pictures.drawCracks, model, title='Prism in compression, seed %d' % seed)
-				if p.sheets: pictures.drawSheets(session, film, model, 'Prism in compression, seed %d' % seed)
-				pictures.drawFilm(session, film, model, 'Prism in compression, seed %d' % seed)
-				if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
+				pictures.drawRun(session, film, model, 'Prism in compression, seed %d' % seed)
 		if p.halfRate and session.wants(seed, 'half_rate_change'):
 			slow = crush(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]
 			strength = curves.peak(slow['strain'], slow['stress'])[0] / 1e6

@@ -22,7 +22,7 @@ import numpy as np
 
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import brickwork, curves, loading, pictures, picturesfields, scenario
+from yadeblocks import brickwork, curves, loading, masonry, pictures, picturesfields, scenario
 from yadeblocks.engines import loopList
 from yadeblocks.export import principalStresses
 from yadeblocks.limitanalysis import largestForce
@@ -35,16 +35,17 @@ from yadeblocks.snapshot import Film
 
 # ---- parameters (SI)
 
-bricks, courses, length, height, gap, thickness = 2, 7, 0.21, 0.052, 0.01, 0.1 # [m]
-brick = dict(young=16.7e9, poisson=0.15, density=1900)
+bricks, courses = 2, 7
+length, height, gap, thickness, friction, brick, joint = masonry.j4d
 p = scenario.parameters({
 	**scenario.usualParameters(threads=1, tag='', alpha=0.3, stroke=1e-3, steps=30000), 'cohesion': Key(
-		0.35e6, 'cohesion of the joints', 'Pa', scenario.positive
-	), 'friction': Key(0.75, 'friction coefficient of the joints', rule=(lambda f: 0 <= f < 1, 'must lie in [0, 1): beyond, no bed joint would slide')),
-	'tension': Key(0.25e6, 'tensile strength of the joints', 'Pa',
-			scenario.positive), 'kn': Key(82e9, 'normal stiffness of the joints', 'Pa/m',
-							scenario.positive), 'ks': Key(36e9, 'shear stiffness of the joints', 'Pa/m', scenario.positive),
-	'GfI': Key(18., 'fracture energy in tension', 'N/m', scenario.positive), 'GfII': Key(125., 'fracture energy in shear', 'N/m', scenario.positive),
+		joint['cohesion'], 'cohesion of the joints', 'Pa', scenario.positive
+	), 'friction': Key(friction, 'friction coefficient of the joints', rule=(lambda f: 0 <= f < 1, 'must lie in [0, 1): beyond, no bed joint would slide')),
+	'tension': Key(joint['tension'], 'tensile strength of the joints', 'Pa',
+			scenario.positive), 'kn': Key(joint['kn'], 'normal stiffness of the joints', 'Pa/m',
+							scenario.positive), 'ks': Key(joint['ks'], 'shear stiffness of the joints', 'Pa/m', scenario.positive),
+	'GfI': Key(joint['GfI'], 'fracture energy in tension', 'N/m',
+			scenario.positive), 'GfII': Key(joint['GfII'], 'fracture energy in shear', 'N/m', scenario.positive),
 	'zone': Key(0.03, 'size of the zones', 'm', (lambda s: 0 < s <= 0.1, 'must be positive and at most 0.1'))
 })
 dt = 1e-4 # [s]; masses are scaled to suit

@@ -15,7 +15,7 @@ import numpy as np
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yadeblocks import loading, pictures, picturesfields, scenario
-from yadeblocks._same import unit
+from yadeblocks.plane import unit
 from yadeblocks.engines import loopList
 from yadeblocks.export import State, writeStates
 from yadeblocks.recording import Recorder

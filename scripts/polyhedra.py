@@ -11,14 +11,14 @@ kn [Pa/m], ks (0: half of it), tension and cohesion [Pa] and friction [degrees] 
 holds what scripts/benchmark.sh found (mode=calibrate). Bonds within bricks are unitStiffness times as stiff and do not break. Masses are
 scaled for the stable step.
 """
-from math import radians
+from math import degrees, radians
 
 import numpy as np
 
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yade import log, utils
-from yadeblocks import curves, loading, running, scenario
+from yadeblocks import curves, loading, masonry, running, scenario
 from yadeblocks.experiments import expected
 from yadeblocks.progress import Progress
 from yadeblocks.recording import Recorder, runner
@@ -28,17 +28,12 @@ from yadeblocks.specimen import rectangle
 
 # ---- parameters (SI)
 
-# Width, stroke, densities of brick and mortar, size and what it means, steps, stiffness of bonds [Pa/m], strengths [Pa], friction angle.
+# Specimen, its joints, size and what it means, steps.
 experiments = {
-	'tension': dict(
-		width=0.1, stroke=0.03e-3, densities=(1900, 1250), size=2e-3, sizeMeaning='edge', lloyd=0, merge=0.2, steps=20000, kn=400e9, tension=0.6e6,
-		cohesion=0.6e6, friction=38.0
-	), 'shear': dict(
-		width=0.2, stroke=1e-3, densities=(1900, 3250), size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, merge=0.1, steps=8000, kn=400e9, tension=1.5e6,
-		cohesion=3e6, friction=45.0
-	)
+	'tension': dict(couplet=masonry.tensionCouplet, joint=masonry.table3, size=2e-3, sizeMeaning='edge', lloyd=0, merge=0.2, steps=20000),
+	'shear': dict(couplet=masonry.shearCouplet, joint=masonry.table5, size=3.5e-3, sizeMeaning='sqrtArea', lloyd=1, merge=0.1, steps=8000)
 }
-brickHeight, mortarHeight, thickness, unitSize = 0.05, 0.015, 0.05, 8e-3
+unitSize = 8e-3 # [m]
 
 p = scenario.parameters(
 	{
@@ -60,25 +55,28 @@ p = scenario.parameters(
 	}
 )
 specimen = experiments[p.experiment]
+couplet, joint = specimen['couplet'], specimen['joint']
+usual = dict(joint, steps=specimen['steps'], friction=degrees(joint['frictionAngle']))
 for key in ('steps', 'kn', 'tension', 'cohesion', 'friction'): # 0: of the experiment
-	if not getattr(p, key): setattr(p, key, specimen[key])
+	if not getattr(p, key): setattr(p, key, usual[key])
 p.ks = p.ks or p.kn / 2
-area, low, high = specimen['width'] * thickness, brickHeight, brickHeight + mortarHeight
+thickness, low, high = couplet.thickness, couplet.brickHeight, couplet.brickHeight + couplet.mortarHeight
+area = couplet.width * thickness
 
 
 def cells(seed):
 	"""The couplet's cells, never inserted."""
 	O.reset()
-	for label, density in zip(('unit', 'mortar'), specimen['densities']):
-		O.materials.append(BlockMat(label=label, density=density))
+	for label, material in (('unit', couplet.unit), ('mortar', couplet.mortar)):
+		O.materials.append(BlockMat(label=label, density=material['density']))
 	model = BlockModel(thickness=thickness)
 	model.addVoronoi(
-		rectangle(0, low, specimen['width'], high), 'mortar', size=specimen['size'], sizeMeaning=specimen['sizeMeaning'], lloyd=specimen['lloyd'],
+		rectangle(0, low, couplet.width, high), 'mortar', size=specimen['size'], sizeMeaning=specimen['sizeMeaning'], lloyd=specimen['lloyd'],
 		seed=seed, mergeFraction=specimen['merge'], zoning='corners'
 	)
 	for number, y in enumerate((0, high)):
 		model.addVoronoi(
-			rectangle(0, y, specimen['width'], y + brickHeight), 'unit', size=unitSize, lloyd=3, seed=1000 * seed + number, zoning='corners'
+			rectangle(0, y, couplet.width, y + couplet.brickHeight), 'unit', size=unitSize, lloyd=3, seed=1000 * seed + number, zoning='corners'
 		)
 	model.bond()
 	return model
@@ -95,9 +93,9 @@ class Specimen:
 		O.reset()
 		made = [
 			MortarMat(
-				label=label, density=density, young=1, poisson=0.5, frictionAngle=radians(p.friction), tensileStrength=p.tension,
+				label=label, density=material['density'], young=1, poisson=0.5, frictionAngle=radians(p.friction), tensileStrength=p.tension,
 				cohesion=p.cohesion, compressiveStrength=1e12, ellAspect=1
-			) for label, density in zip(('unit', 'mortar'), specimen['densities'])
+			) for label, material in (('unit', couplet.unit), ('mortar', couplet.mortar))
 		]
 		for mat in made:
 			O.materials.append(mat)
@@ -178,7 +176,7 @@ def run(seed):
 	O.dt = dt
 	made.bond(geometry, dt)
 	axis, press = (0, p.pressSteps) if p.experiment == 'shear' else (1, 0)
-	velocity = specimen['stroke'] / (p.steps * dt)
+	velocity = couplet.stroke / (p.steps * dt)
 	made.hold()
 	start = O.iter
 	approach = loading.Approach(made, 'top', p.approach if press else 1)
@@ -194,15 +192,15 @@ def run(seed):
 			O.bodies[i].state.vel = now
 
 	def react(row):
-		loaded = travelled() > 0.01 * specimen['stroke'] # what comes before is noise
+		loaded = travelled() > 0.01 * couplet.stroke # what comes before is noise
 		approach(row.stress, loaded)
 		stop(travelled(), row.stress, loaded)
-		progress(travelled() / specimen['stroke'] * p.steps)
+		progress(travelled() / couplet.stroke * p.steps)
 
 	record = Recorder(moved=lambda: made.movement(axis), stress=lambda: -sum(O.forces.f(i)[axis] for i in made.top) / area).after(react)
 	O.engines += [runner('load', load, max(1, p.steps // 250)), record.engine(max(1, p.steps // (800 if p.experiment == 'tension' else 400)))]
 	load()
-	stop = loading.Stop(drop=0.5, displacement=specimen['stroke'])
+	stop = loading.Stop(drop=0.5, displacement=couplet.stroke)
 	with Progress(p.steps, lambda: 'stress %.3f MPa' % (record.last.stress / 1e6), label='seed %d' % seed) as progress:
 		running.run()
 	return made, record['moved'], record['stress']

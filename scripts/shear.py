@@ -30,30 +30,28 @@ import numpy as np
 
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
+from yadeblocks import curves, energies, experiments, loading, masonry, pictures, scenario, softening
 from yadeblocks.engines import loopList
-from yadeblocks.export import writeFilm
 from yadeblocks.pace import Pace
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
-from yadeblocks.snapshot import Film, Snapshot
 from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
 # ---- parameters (SI)
 
-length, brickHeight, thickness, mortarHeight = 0.2, 0.05, 0.05, 0.015 # [m]
-brick, mortar = dict(poisson=0.2, density=1900), dict(poisson=0.2, density=3250) # Table 4
-moduli = scenario.usualParameters(unitYoung=16.7e9, mortarYoung=2.974e9)
+bricks, length, brickHeight, mortarHeight, thickness, stroke, brick, mortar = masonry.shearCouplet
+moduli = scenario.usualParameters(unitYoung=brick['young'], mortarYoung=mortar['young'])
 residualFriction = degrees(atan(experiments.residualFriction))
-shared = dict(kn=400e9, ks=200e9, dilation=0.) # Table 5
+table5, shared = masonry.table5, dict(masonry.stiffnesses, dilation=0.)
 measured = {name: softening.measured[name] for name in ('kn', 'ks', 'cohesion', 'tension', 'GfI', 'GfII', 'GfIIPressure', 'lastingShare')}
 sets = { # angles in degrees
 	'paper': dict(
-		shared, cohesion=3e6, tension=1.5e6, friction=45., residualFriction=36., GfI=0., GfII=0., GfIIPressure=0., lastingShare=0., mortarStrengths=1.
-	), # Table 5
+		shared, cohesion=table5['cohesion'], tension=table5['tension'], friction=degrees(table5['frictionAngle']),
+		residualFriction=degrees(table5['frictionAngleResidual']), GfI=0., GfII=0., GfIIPressure=0., lastingShare=0., mortarStrengths=1.
+	),
 	'measured': dict(
 		measured, friction=degrees(softening.measured['frictionAngle']), residualFriction=residualFriction, dilation=0., mortarStrengths=1.
 	),
@@ -62,15 +60,12 @@ sets = { # angles in degrees
 		GfIIPressure=0., lastingShare=1., mortarStrengths=3.
 	),
 }
-brickJoint = dict(
-	kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6
-) # with units=voronoi; Table 9, since none is given for these bricks
 velocity = 0.2e-3 # [m/s]
 pressSteps = 2000
 
 p = scenario.parameters({
 	**scenario.commonParameters(sizeMeaning='sqrtArea', lloyd=1, steps=32000, alpha=0.2), **scenario.usualParameters(
-		sigma=0.5e6, stroke=1e-3, approach=0.2, solver='steps', release='path', jump=True, servo=False, units='plain', cells='voronoi', edgeSegments=1
+		sigma=0.5e6, stroke=stroke, approach=0.2, solver='steps', release='path', jump=True, servo=False, units='plain', cells='voronoi', edgeSegments=1
 	), 'afterPeak': Key(True, 'go on behind the peak, to the residual stress'), 'contact': Key(True, 'blocks that share no joint may meet'),
 	'size': Key(3.5e-3, 'size of the Voronoi cells', 'm', (lambda s: 0 < s < mortarHeight, 'must be positive and smaller than the mortar layer')),
 	'joints': Key('paper', 'brittle joints of Table 5, or joints that soften',
@@ -94,8 +89,8 @@ peakExpected, residualExpected = experiments.peakShearStress(p.sigma), experimen
 def build(seed, dt):
 	"""The couplet in the scene."""
 	O.reset()
-	O.materials.append(BlockMat(label='unit', young=p.unitYoung, **brick))
-	O.materials.append(BlockMat(label='mortar', young=p.mortarYoung, **mortar))
+	O.materials.append(BlockMat(label='unit', **{**brick, 'young': p.unitYoung}))
+	O.materials.append(BlockMat(label='mortar', **{**mortar, 'young': p.mortarYoung}))
 	model = BlockModel(thickness=thickness, planeStress=p.plane == 'stress')
 	options = dict(lloyd=p.lloyd, seed=seed, mergeFraction=p.merge, edgeSegments=p.edgeSegments)
 	addCells(model, p.cells, rectangle(0, low, length, high), 'mortar', size=p.size, sizeMeaning=p.sizeMeaning, **options)
@@ -106,7 +101,7 @@ def build(seed, dt):
 		JointMat(material1='mortar', material2='mortar', **softening.stronger(joint, p.mortarStrengths)),
 		JointMat(material1='unit', material2='mortar', **joint)
 	]
-	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **brickJoint))
+	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **masonry.brickJoint))
 	model.bond(joints)
 	softening.scatterStrengths(model, p, seed)
 	top = nodesWhere(model, lambda x, y: y > high + brickHeight - 1e-9)
@@ -125,7 +120,7 @@ def shear(stage, seed, steps):
 	below, above = nodesWhere(model, lambda x, y: abs(y - low) < 1e-9, 'unit'), nodesWhere(model, lambda x, y: abs(y - high) < 1e-9, 'unit')
 	floor, cracks = 1e-3 * max(p.sigma, joint['tension']) * area, Cracks(model)
 	slip, uplift = Gauge(model, below, above, 'x'), Gauge(model, below, above, 'y')
-	film = Film(model, p.frames if p.vtk or p.movie != 'none' else 0)
+	film = pictures.filmOf(p, model)
 	record = Recorder(
 		displacement=slip, stress=lambda: model.groupForce('shear') / area, uplift=uplift, broken=cracks.look,
 		yielded=lambda: np.count_nonzero(model.pointStatus), unbalanced=lambda: model.unbalancedRatio(floor=floor), exact=lambda: 0
@@ -193,7 +188,7 @@ with Session(p) as session:
 				strength, peak = curves.peak(displacement[path], stress[path])
 				run.add('peak_shear_stress', 'MPa', strength / 1e6, *peakExpected)
 				if p.afterPeak: run.add('residual_shear_stress', 'MPa', curves.residual(displacement, stress) / 1e6, *residualExpected)
-				run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
+				run.add('first_crack_stress', 'MPa', curves.atFirst(broken, stress) / 1e6)
 				run.add('first_crack_point', '1', cracks.firstPoint if cracks.first[1] else np.nan) # its number in the model
 				run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
 				run.add('first_crack_place', 'mm', cracks.first[0][0] * 1e3) # from the left end
@@ -203,21 +198,17 @@ with Session(p) as session:
 				if softens:
 					run.add('fracture_energy', 'N/m', energies.spent() / area) # friction included
 					run.add('energy_above_residual', 'N/m', curves.aboveResidual(displacement, stress))
-					run.add('crack_length', '1', (cracks.areas * model.pointDamage).sum() / area) # by damage, over the section
-					for cause, energy in energies.dissipated().items():
-						run.add('dissipated_' + cause, 'N/m', energy / area)
+					run.add('crack_length', '1', cracks.length(area)) # by damage, over the section
+					energies.addDissipated(run, 'N/m', area)
 				ofPath = {'exact': record['exact']} if exact.any() else {}
 				run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, uplift_mm=1e3 * uplift, broken=broken, **ofPath)
 				run.model(model, steps=O.iter, **engineCosts(model, O.iter))
 				run.quality(
-					unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max(), energy_error=energies.error() if softens else None
+					unbalanced_ratio_max=curves.largestBehindStart(record['unbalanced']), energy_error=energies.error() if softens else None
 				)
 			if seed == p.seed:
 				title = 'Couplet in shear, precompression %g N/mm², seed %d' % (p.sigma / 1e6, seed)
-				session.picture('cracks.png', pictures.drawCracks, model, title=title)
-				if p.sheets: pictures.drawSheets(session, film, model, title)
-				pictures.drawFilm(session, film, model, title)
-				if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
+				pictures.drawRun(session, film, model, title)
 		if p.halfRate and session.wants(seed, 'half_rate_change'):
 			slow = shear(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]
 			strength = curves.peak(slow['displacement'], slow['stress'])[0] / 1e6

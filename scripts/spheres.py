@@ -27,7 +27,7 @@ import numpy as np
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
 from yade import log, utils
-from yadeblocks import curves, loading, packing, running, scenario
+from yadeblocks import curves, loading, masonry, packing, running, scenario
 from yadeblocks.experiments import expected
 from yadeblocks.progress import Progress
 from yadeblocks.recording import Recorder, runner
@@ -36,10 +36,10 @@ from yadeblocks.session import Session
 
 # ---- specimens (SI), as in the scenarios of the same name
 
-experiments = { # bricks, width, brick height, mortar height, stroke; elastic moduli and densities of brick and mortar; radius, steps
-	'tension': dict(bricks=2, width=0.1, brick=0.05, mortar=0.015, stroke=0.03e-3, densities=(1900, 1250), radius=1.5e-3, coarser=2, steps=20000),
-	'shear': dict(bricks=2, width=0.2, brick=0.05, mortar=0.015, stroke=1e-3, densities=(1900, 3250), radius=2e-3, coarser=2, steps=8000),
-	'compression': dict(bricks=5, width=0.285, brick=0.05, mortar=0.01, stroke=3.6e-3, densities=(2000, 2000), radius=2.5e-3, coarser=1.5, steps=10000),
+experiments = { # specimen; radius of the spheres in mortar [m], how much larger they are in bricks, steps
+	'tension': dict(of=masonry.tensionCouplet, radius=1.5e-3, coarser=2, steps=20000),
+	'shear': dict(of=masonry.shearCouplet, radius=2e-3, coarser=2, steps=8000),
+	'compression': dict(of=masonry.prism, radius=2.5e-3, coarser=1.5, steps=10000),
 }
 models = ('jcfpm', 'jcfpmSmooth', 'cohfrict', 'cpm', 'lourenco')
 micro = { # what calibration moves; 0: of the calibration
@@ -62,15 +62,16 @@ p = scenario.parameters({
 		key: Key(0.0, meaning + '; 0: calibrated', unit, scenario.notNegative) for key, (meaning, unit) in micro.items()
 	}
 })
-specimen = experiments[p.experiment]
-p.radius, p.steps = p.radius or specimen['radius'], p.steps or specimen['steps']
-p.unitRadius = p.unitRadius or p.radius * (specimen['coarser'] if p.model != 'lourenco' else 1) # bricks that stay elastic need fewer spheres
+usual = experiments[p.experiment]
+specimen = usual['of']
+p.radius, p.steps = p.radius or usual['radius'], p.steps or usual['steps']
+p.unitRadius = p.unitRadius or p.radius * (usual['coarser'] if p.model != 'lourenco' else 1) # bricks that stay elastic need fewer spheres
 calibrated = json.loads((Path(sys.argv[0]).parent / 'calibrated.json').read_text()).get(f'{p.model} {p.experiment}', {}).get('parameters', {})
 for key in micro: # 0: of the calibration
 	if not getattr(p, key): setattr(p, key, calibrated.get(key, 0.0))
 
-width, thickness = specimen['width'], 2 * p.radius
-layers = [('mortar', specimen['mortar']) if i % 2 else ('unit', specimen['brick']) for i in range(2 * specimen['bricks'] - 1)]
+width, thickness = specimen.width, 2 * p.radius
+layers = [('mortar', specimen.mortarHeight) if i % 2 else ('unit', specimen.brickHeight) for i in range(2 * specimen.bricks - 1)]
 height = sum(thick for _, thick in layers)
 area = width * thickness
 
@@ -80,8 +81,8 @@ area = width * thickness
 def materials():
 	"""Of bricks and mortar. Bricks are stronger by unitStrength; where materials meet, the mortar's strength counts (see bond)."""
 	made = {}
-	for label, young, density, factor in (('unit', p.unitYoung, specimen['densities'][0], p.unitStrength),
-						('mortar', p.mortarYoung, specimen['densities'][1], 1)):
+	for label, young, density, factor in (('unit', p.unitYoung, specimen.unit['density'], p.unitStrength),
+						('mortar', p.mortarYoung, specimen.mortar['density'], 1)):
 		elastic = dict(label=label, young=young, poisson=p.poisson, density=density, frictionAngle=radians(p.friction))
 		if p.model in ('jcfpm', 'jcfpmSmooth'):
 			joint = dict(
@@ -182,7 +183,7 @@ class Specimen:
 
 	def movement(self, axis):
 		"""Of the spheres above the first mortar layer relative to those below [m]."""
-		low, high = specimen['brick'], specimen['brick'] + specimen['mortar']
+		low, high = specimen.brickHeight, specimen.brickHeight + specimen.mortarHeight
 		y, unit = self.centres[:, 1], self.labels == 'unit'
 		displacement = lambda rows: np.mean([O.bodies[int(i)].state.displ()[axis] for i in np.flatnonzero(rows & unit)])
 		reach = 2 * p.unitRadius
@@ -220,7 +221,7 @@ def run(seed):
 
 	axis = 0 if p.experiment == 'shear' else 1
 	press = p.pressSteps if p.experiment == 'shear' else 0
-	velocity = specimen['stroke'] / (p.steps * dt)
+	velocity = specimen.stroke / (p.steps * dt)
 	hold(made)
 	stepper.dead = False
 	newton.densityScaling = True # reaches it only while the stepper is in O.engines, and says so
@@ -243,15 +244,15 @@ def run(seed):
 		return made.movement(axis)
 
 	def react(row):
-		loaded = travelled() > 0.01 * specimen['stroke'] # what comes before is noise
+		loaded = travelled() > 0.01 * specimen.stroke # what comes before is noise
 		approach(row.stress, loaded)
 		stop(travelled(), row.stress, loaded)
-		progress(travelled() / specimen['stroke'] * p.steps)
+		progress(travelled() / specimen.stroke * p.steps)
 
 	record = Recorder(moved=moved, stress=lambda: made.force(axis) / area * (1 if p.experiment == 'compression' else -1)).after(react)
 	O.engines += [runner('load', load, max(1, p.steps // 1000)), record.engine(max(1, p.steps // (1600 if p.experiment == 'tension' else 400)))]
 	load()
-	stop = loading.Stop(drop=None if press else 0.5, displacement=specimen['stroke'])
+	stop = loading.Stop(drop=None if press else 0.5, displacement=specimen.stroke)
 	with Progress(p.steps, lambda: 'stress %.3f MPa' % (record.last.stress / 1e6), label='seed %d' % seed) as progress:
 		running.run()
 	return made, record['moved'], record['stress']

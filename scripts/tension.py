@@ -37,37 +37,29 @@ import numpy as np
 
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import curves, energies, experiments, loading, pictures, scenario, softening
+from yadeblocks import curves, energies, experiments, loading, masonry, pictures, scenario, softening
 from yadeblocks.engines import loopList
-from yadeblocks.export import writeFilm
 from yadeblocks.pace import Pace
 from yadeblocks.progress import Progress, loadingLine
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks, engineCosts
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
-from yadeblocks.snapshot import Film, Snapshot
 from yadeblocks.specimen import Gauge, addCells, nodesWhere, rectangle
 
 # ---- parameters (SI)
 
-length, brickHeight, thickness, mortarHeight = 0.1, 0.05, 0.05, 0.015 # [m]
-brick, mortar = dict(poisson=0.2, density=1900), dict(poisson=0.2, density=1250) # Table 1
-moduli = scenario.usualParameters(unitYoung=16.7e9, mortarYoung=2.974e9)
-table2 = dict(kn=400e9, ks=200e9, frictionAngle=radians(38), cohesion=0.75e6, tension=0.75e6, dilationAngle=radians(4))
-table3 = dict(table2, cohesion=0.60e6, tension=0.60e6)
-brickJoint = dict(
-	kn=1260e9, ks=630e9, frictionAngle=radians(20), cohesion=15e6, tension=7.5e6
-) # with units=voronoi; Table 9, since none is given for these bricks
+bricks, length, brickHeight, mortarHeight, thickness, stroke, brick, mortar = masonry.tensionCouplet
+moduli = scenario.usualParameters(unitYoung=brick['young'], mortarYoung=mortar['young'])
 cases = { # mortar-mortar joints, unit-mortar joints, size [m], expected peak [MPa], its source
-	'TT1': (table2, table3, 2e-3, *experiments.tensileStrength),
-	'TT2': (table3, table3, 2e-3, *experiments.tensileStrengthOfPaper[2e-3]),
-	'TT2b': (table2, table2, 2e-3, None, None),
-	'TT3': (table3, table3, 6e-3, *experiments.tensileStrengthOfPaper[6e-3]),
+	'TT1': (masonry.table2, masonry.table3, 2e-3, *experiments.tensileStrength),
+	'TT2': (masonry.table3, masonry.table3, 2e-3, *experiments.tensileStrengthOfPaper[2e-3]),
+	'TT2b': (masonry.table2, masonry.table2, 2e-3, None, None),
+	'TT3': (masonry.table3, masonry.table3, 6e-3, *experiments.tensileStrengthOfPaper[6e-3]),
 }
 softeningSets = {'measured': softening.measured, 'calibrated': dict(softening.measured, tension=0.39e6)} # all joints alike
 scatterOfSets = {'calibrated': 0.2}
-stroke, velocity = 0.03e-3, 0.02e-3 # [m], [m/s]
+velocity = 0.02e-3 # [m/s]
 faster, growth = 20, 1.004 # behind the peak, where joints soften: up to so many times as fast, by so much from look to look
 
 p = scenario.parameters({
@@ -103,8 +95,8 @@ area, duration = length * thickness, stroke / velocity
 def build(seed):
 	"""The couplet in the scene."""
 	O.reset()
-	O.materials.append(BlockMat(label='unit', young=p.unitYoung, **brick))
-	O.materials.append(BlockMat(label='mortar', young=p.mortarYoung, **mortar))
+	O.materials.append(BlockMat(label='unit', **{**brick, 'young': p.unitYoung}))
+	O.materials.append(BlockMat(label='mortar', **{**mortar, 'young': p.mortarYoung}))
 	low, high = brickHeight, brickHeight + mortarHeight
 	model = BlockModel(thickness=thickness, planeStress=p.plane == 'stress')
 	options = dict(lloyd=p.lloyd, seed=seed, mergeFraction=p.merge, edgeSegments=p.edgeSegments)
@@ -113,7 +105,7 @@ def build(seed):
 		if p.units == 'plain': model.addRegion(outline, 'unit', zoneSize=p.brickZone)
 		else: model.addVoronoi(outline, 'unit', size=p.brickZone, lloyd=3, seed=1000 * seed + number, edgeSegments=p.edgeSegments)
 	joints = [JointMat(material1='mortar', material2='mortar', **mortarJoint), JointMat(material1='unit', material2='mortar', **unitJoint)]
-	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **brickJoint))
+	if p.units == 'voronoi': joints.append(JointMat(material1='unit', material2='unit', **masonry.brickJoint))
 	model.bond(joints)
 	softening.scatterStrengths(model, p, seed)
 	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
@@ -132,7 +124,7 @@ def pull(stage, seed, steps):
 	)
 	floor, cracks = 1e-3 * unitJoint['tension'] * area, Cracks(model)
 	stop = loading.Stop(drop=p.tail, displacement=30 * stroke) if softens else loading.Stop(drop=0.5, displacement=2 * stroke)
-	film = Film(model, p.frames if p.vtk or p.movie != 'none' else 0)
+	film = pictures.filmOf(p, model)
 	record = Recorder(
 		displacement=gauge, stress=lambda: model.groupForce('top') / area, broken=cracks.look, yielded=lambda: np.count_nonzero(model.pointStatus),
 		unbalanced=lambda: model.unbalancedRatio(floor=floor)
@@ -185,12 +177,11 @@ def seriesStiffness():
 	return experiments.seriesStiffness(mortarHeight, p.mortarYoung, mortar['poisson'], unitJoint['kn'], side, p.plane == 'strain')
 
 
-def addEnergies(run, model, cracks):
+def addEnergies(run, cracks):
 	"""By the section [N/m]."""
 	run.add('fracture_energy', 'N/m', energies.spent() / area)
-	run.add('crack_length', '1', (cracks.areas * model.pointDamage).sum() / area) # by damage, over the section
-	for cause, energy in energies.dissipated().items():
-		run.add('dissipated_' + cause, 'N/m', energy / area)
+	run.add('crack_length', '1', cracks.length(area)) # by damage, over the section
+	energies.addDissipated(run, 'N/m', area)
 
 
 # ---- running
@@ -210,23 +201,20 @@ with Session(p) as session:
 				else: elastic = (yielded == 0) & ((stress > 0.1 * strength) | p.jump) # from where a smooth start is over
 
 				run.add('peak_tensile_stress', 'MPa', strength / 1e6, expectedPeak, source)
-				run.add('first_crack_stress', 'MPa', stress[broken > 0][0] / 1e6 if broken.any() else np.nan)
+				run.add('first_crack_stress', 'MPa', curves.atFirst(broken, stress) / 1e6)
 				run.add('first_crack_point', '1', cracks.firstPoint if cracks.first[1] else np.nan) # its number in the model
 				slope = np.polyfit(displacement[elastic], stress[elastic], 1)[0]
 				run.add('joint_stiffness', 'N/mm3', slope / 1e9, seriesStiffness() / 1e9, 'series of mortar and joints')
 				run.add('displacement_at_peak', 'um', displacement[peak] * 1e6)
 				run.add('crack_share_unit-mortar', '1', cracks.share('unit-mortar'))
-				if softens: addEnergies(run, model, cracks)
+				if softens: addEnergies(run, cracks)
 				run.curve(displacement_mm=1e3 * displacement, stress_MPa=stress / 1e6, broken=broken)
 				run.model(model, steps=O.iter, **engineCosts(model, O.iter))
 				run.quality(
-					unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max(), energy_error=energies.error() if softens else None
+					unbalanced_ratio_max=curves.largestBehindStart(record['unbalanced']), energy_error=energies.error() if softens else None
 				)
 			if seed == p.seed:
-				session.picture('cracks.png', pictures.drawCracks, model, title='%s, seed %d' % (title, seed))
-				if p.sheets: pictures.drawSheets(session, film, model, '%s, seed %d' % (title, seed))
-				pictures.drawFilm(session, film, model, '%s, seed %d' % (title, seed))
-				if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
+				pictures.drawRun(session, film, model, '%s, seed %d' % (title, seed))
 		if p.halfRate and session.wants(seed, 'half_rate_change'):
 			slow = pull(session.stage('seed %d, half rate' % seed), seed, 2 * p.steps)[1]
 			strength = curves.peak(slow['displacement'], slow['stress'])[0] / 1e6

@@ -16,9 +16,10 @@ import numpy as np
 
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import curves, loading, pictures, picturesfields, scenario, softening
+from yadeblocks import curves, loading, masonry, pictures, picturesfields, scenario, softening
 from yadeblocks.engines import loopList
 from yadeblocks.pace import Pace
+from yadeblocks.readings.blocks import blockOfNodes
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks
 from yadeblocks.scenario import Key
@@ -27,22 +28,21 @@ from yadeblocks.specimen import nodesWhere, rectangle
 
 # ---- parameters (SI)
 
-length, height, thickness = 0.21, 0.052, 0.1 # of a brick; its length is upright here [m]
-brick = dict(young=16.7e9, poisson=0.15, density=1900)
+length, height, gap, thickness, friction, brick, joint = masonry.j4d # its length is upright here
 sigmas = (0.2e6, 0.6e6, 1.0e6) # [Pa], EN 1052-3 for units stronger than 10 N/mm2
 p = scenario.parameters({
 	**scenario.usualParameters(threads=1, tag='', alpha=0.3, stroke=0.3e-3), 'joints': Key(
 		'softening', 'joints that soften, or brittle ones', rule=('softening', 'brittle')
-	), **softening.jointKeys('GfI', 'GfII'), 'cohesion': Key(0.35e6, 'cohesion of the joints', 'Pa', scenario.positive),
-	'friction': Key(0.75, 'friction coefficient of the joints',
-			rule=scenario.positive), 'tension': Key(0.25e6, 'tensile strength of the joints', 'Pa', scenario.positive),
-	'kn': Key(82e9, 'normal stiffness of the joints', 'Pa/m',
-			scenario.positive), 'ks': Key(36e9, 'shear stiffness of the joints', 'Pa/m', scenario.positive),
+	), **softening.jointKeys('GfI', 'GfII'), 'cohesion': Key(joint['cohesion'], 'cohesion of the joints', 'Pa', scenario.positive),
+	'friction': Key(friction, 'friction coefficient of the joints',
+			rule=scenario.positive), 'tension': Key(joint['tension'], 'tensile strength of the joints', 'Pa', scenario.positive),
+	'kn': Key(joint['kn'], 'normal stiffness of the joints', 'Pa/m',
+			scenario.positive), 'ks': Key(joint['ks'], 'shear stiffness of the joints', 'Pa/m', scenario.positive),
 	'zone': Key(0.013, 'size of the zones', 'm', (lambda s: 0 < s <= height, 'must be positive and at most a brick\'s height')),
 	'steps': Key(10000, 'time steps for the whole stroke', rule=scenario.atLeastOne)
 })
-for key, value in (('GfI', 18.), ('GfII', 125.)): # [N/m]
-	if getattr(p, key) == -1: setattr(p, key, value if p.joints == 'softening' else 0.)
+for key in ('GfI', 'GfII'):
+	if getattr(p, key) == -1: setattr(p, key, joint[key] if p.joints == 'softening' else 0.)
 dt = 1e-4 # [s]; masses are scaled to suit
 area = 2 * length * thickness # of both joints
 
@@ -59,8 +59,7 @@ def build(sigma):
 	near = 0.3 * height # the supports, beside the joints
 	outer = lambda x, y: (y < 1e-9) & (((x < height + 1e-9) & (x > height - near)) | ((x > 2 * height - 1e-9) & (x < 2 * height + near)))
 	feet = nodesWhere(model, outer)
-	block = np.searchsorted(model.firstNode, feet, side='right') - 1
-	model.drive('supports', feet[block != 1], 'y')
+	model.drive('supports', feet[blockOfNodes(model)[feet] != 1], 'y')
 	middle = np.arange(model.firstNode[1], model.firstNode[2])
 	model.drive('ram', middle[model.reference[middle, 1] > length - 1e-9], 'y', velocity=0)
 	model.drive('wall', nodesWhere(model, lambda x, y: x < 1e-9), 'x')

@@ -25,28 +25,25 @@ import numpy as np
 
 import yadeblocks # noqa: F401 (loads the plugin)
 from yade import *
-from yadeblocks import brickwork, curves, loading, pictures, scenario
+from yadeblocks import brickwork, curves, experiments, loading, masonry, pictures, scenario
 from yadeblocks.engines import find, loopList
-from yadeblocks.export import writeFilm
 from yadeblocks.layout import Mortared
 from yadeblocks.pace import Pace
 from yadeblocks.progress import Progress, loadingLine
+from yadeblocks.readings.blocks import blockOfNodes
 from yadeblocks.recording import Recorder
 from yadeblocks.results import Cracks
 from yadeblocks.scenario import Key
 from yadeblocks.session import Session
-from yadeblocks.snapshot import Film, Snapshot
 
 # ---- parameters (SI)
 
-bricks, courses, length, height, gap, thickness = 4.5, 18, 0.21, 0.052, 0.01, 0.1 # [m]
-brick = dict(young=16.7e9, poisson=0.15, density=1900)
-joint = dict(kn=82e9, ks=36e9, tension=0.25e6, cohesion=0.35e6, frictionAngle=atan(0.75), GfI=18., GfII=125.)
-mortarJoint = {**joint, 'kn': 400e9, 'ks': 200e9}
+bricks, courses = 4.5, 18
+length, height, gap, thickness, friction, brick, joint = masonry.j4d
+mortarJoint = {**joint, **masonry.stiffnesses}
 brickCrack = dict(tension=2e6, cohesion=2.8e6, frictionAngle=atan(1.), GfI=80., GfII=500.)
 cap = dict(capStrength=10.5e6, capFirst=3.5e6, capResidual=1.5e6, capPeakClosure=0.09e-3, capEnergy=5e3, capShear=9.)
-measured = np.array([(0, 0.2, 0.4, 0.7, 1.0, 1.4, 1.8, 2.2, 2.6, 3.0), (0, 18, 34, 48, 57, 54, 48, 42, 38, 35)]) # [mm], [kN], digitised
-source = 'Raijmakers and Vermeltfoort 1992, as digitised; +- 8; another reading is 50'
+measured = np.array(experiments.wallCurve) # [mm], [kN]
 
 p = scenario.parameters({
 	**scenario.usualParameters(
@@ -116,7 +113,7 @@ def build(seed):
 def endCourse(model, placed, course):
 	"""Grid points of the lowest or the highest course, with those of the mortar between its bricks."""
 	blocks = placed.blocks[placed.layout.notes['courseOf'] == course]
-	own = np.repeat(np.isin(np.arange(len(model.blockMaterial)), blocks), np.diff(model.firstNode))
+	own = np.isin(blockOfNodes(model), blocks)
 	if p.detail == 'interface': return np.flatnonzero(own)
 	y, edge = model.reference[:, 1], model.reference[own, 1]
 	return np.flatnonzero(own | (y > edge.min() + 1e-9 if course else y < edge.max() - 1e-9))
@@ -135,7 +132,7 @@ def nearDiagonal(model):
 def shear(stage, seed):
 	"""The model; the recorder of displacement [m], forces at the top and the base and normal force [N] and cracked contact points; the film."""
 	model = stage.model or build(seed)
-	cracks, film, stop = Cracks(model), Film(model, p.frames if p.vtk or p.movie != 'none' else 0), loading.Stop(displacement=p.stroke)
+	cracks, film, stop = Cracks(model), pictures.filmOf(p, model), loading.Stop(displacement=p.stroke)
 	record = Recorder(
 		displacement=lambda: model.groupTravelled('side'), force=lambda: model.groupForce('side'), base=lambda: -model.groupForce('base', axis='x'),
 		normal=lambda: -model.groupForce('press'), broken=cracks.look, unbalanced=lambda: model.unbalancedRatio(floor=1e-2 * load),
@@ -156,13 +153,6 @@ def shear(stage, seed):
 	return model, record, cracks, film
 
 
-def firstPeak(force):
-	"""Index of the highest force before it falls by 5 % for the first time; what oscillates below half of the highest is none."""
-	highest = np.maximum.accumulate(force)
-	fallen = np.flatnonzero((force < 0.95 * highest) & (highest > force.max() / 2))
-	return int(np.argmax(force[:fallen[0] if len(fallen) else len(force)]))
-
-
 # ---- running
 
 with Session(p) as session:
@@ -172,9 +162,9 @@ with Session(p) as session:
 				model, record, cracks, film = shear(session.stage('seed %d' % seed), seed)
 			force, displacement = record['force'], record['displacement']
 			strength, peak = curves.peak(displacement, force)
-			run.add('peak_shear_force', 'kN', strength / 1e3, 57., source)
-			first = firstPeak(force)
-			run.add('first_peak_force', 'kN', force[first] / 1e3, 57., source)
+			run.add('peak_shear_force', 'kN', strength / 1e3, *experiments.wallForce)
+			first = curves.firstPeak(force)
+			run.add('first_peak_force', 'kN', force[first] / 1e3, *experiments.wallForce)
 			run.add('displacement_at_first_peak', 'mm', 1e3 * displacement[first], 1.0, 'the digitised curve')
 			run.add('base_by_top_at_first_peak', '1', record['base'][first] / force[first], 1.0, 'equilibrium: inertia and damping take the rest')
 			run.add('displacement_at_peak', 'mm', 1e3 * displacement[peak], 1.0, 'the digitised curve')
@@ -187,19 +177,16 @@ with Session(p) as session:
 			)
 			run.add('damage_near_the_diagonal', '1', nearDiagonal(model))
 			run.model(model, steps=O.iter)
-			run.quality(unbalanced_ratio_max=record['unbalanced'][len(record) // 10:].max())
+			run.quality(unbalanced_ratio_max=curves.largestBehindStart(record['unbalanced']))
 		if seed == p.seed:
-			session.picture('cracks.png', pictures.drawCracks, model, title='Shear wall J4D')
-			if p.sheets: pictures.drawSheets(session, film, model, 'Shear wall J4D')
-			pictures.drawFilm(session, film, model, 'Shear wall J4D')
-			if p.vtk: session.later(writeFilm, p.folder, film, Snapshot(model, O.time))
+			pictures.drawRun(session, film, model, 'Shear wall J4D')
 	session.write()
 	session.picture(
 		'curve.png', pictures.drawCurve, session.results.curves, 'displacement_mm', 'force_kN',
 		labels=('displacement of the top [mm]', 'shear force [kN]'), title='Shear wall J4D, precompression %g N/mm²' % (p.sigma / 1e6), references=[
 			pictures.Reference('laboratory (Raijmakers and Vermeltfoort 1992)', measured[1], measured[0]),
-			pictures.Reference('the two readings of its peak', (50, 57)),
-			pictures.Reference('friction alone', 0.75 * load / 1e3)
+			pictures.Reference('the two readings of its peak', experiments.wallForceReadings),
+			pictures.Reference('friction alone', friction * load / 1e3)
 		]
 	)
 scenario.waitIfBatch()

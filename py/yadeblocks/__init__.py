@@ -6,3 +6,14 @@ read, draw and check work under any Python, and the plugin follows as soon as YA
 from . import _plugin
 
 _plugin.follow()
+
+_moved = { # modules that were here; `laboratory` is in the folder scripts and not installed
+	**{name: f"laboratory.{name}" for name in ("calibration", "instructions", "jobs", "tradeoff", "tradeoffpicture")},
+	"study": "laboratory.study and yadeblocks.provenance"
+}
+
+
+def __getattr__(name):
+	"""Says where a module is that has moved; `import yadeblocks.jobs` is not asked here."""
+	if name in _moved: raise ImportError(f"yadeblocks.{name} is {_moved[name]} now; laboratory is in the folder scripts, which is not installed")
+	raise AttributeError(f"module 'yadeblocks' has no attribute {name!r}")

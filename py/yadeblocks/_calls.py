@@ -4,12 +4,12 @@ place of Boost's list of C++ signatures. Attributes that do not exist are refuse
 
 Nothing is looked at unless a call has failed already: calls that are right cost nothing but one function of Python's. `door` does the same for functions
 in Python, which would fail somewhere within; it looks at every call, and so is for doors alone. Kinds of arguments stand in _kinds."""
-import difflib
 import functools
 import inspect
 import re
 
 from ._kinds import fits, wordsOf, wrong
+from ._words import closest
 
 _ours = re.compile(r"(Block\w*|JointMat|JointPhys|NumpyLaw|(Ig2|Ip2|Law2|Bo1)_Block\w*)$")
 
@@ -106,7 +106,7 @@ def _said(name, parameters, given, named):
 	words = [word for word, _, _ in parameters]
 	if len(given) > len(words): return TypeError(f"{name} takes {len(words)} arguments at most, got {len(given)}: {name}{_signature(parameters)}")
 	for word in named:
-		if word not in words: return TypeError(f"{name} has no argument {word}{_closest(word, words)}; known: {' '.join(words) or 'none'}")
+		if word not in words: return TypeError(f"{name} has no argument {word}{closest(word, words)}; known: {' '.join(words) or 'none'}")
 		if word in words[:len(given)]: return TypeError(f"{name}.{word} must be given once, got {given[words.index(word)]!r} and {named[word]!r}")
 	values = {**dict(zip(words, given)), **named}
 	missing = [word for word, _, default in parameters if default is inspect.Parameter.empty and word not in values]
@@ -121,12 +121,6 @@ def _said(name, parameters, given, named):
 def _plain(value):
 	"""A number of numpy's as Python's."""
 	return value.item() if hasattr(value, "item") and getattr(value, "ndim", 1) == 0 else value
-
-
-def _closest(word, known):
-	names = {name.lower(): name for name in known}
-	close = difflib.get_close_matches(word.lower(), names, 1)
-	return f" (did you mean {names[close[0]]}?)" if close else ""
 
 
 def _attributes(kind):
@@ -158,7 +152,7 @@ def _ofAttributes(kind, named, error):
 	known = _attributes(kind)
 	for word in named:
 		if word not in known and f" {word}." in str(error):
-			return AttributeError(f"{kind.__name__} has no attribute {word}{_closest(word, known)}; known: {' '.join(known)}")
+			return AttributeError(f"{kind.__name__} has no attribute {word}{closest(word, known)}; known: {' '.join(known)}")
 	if "No registered converter" not in str(error): return None
 	wrong = re.search(r"of type (.+) from this Python object of type (.+)$", str(error))
 	type_, got = {"double": "float", "std::string": "str", "long": "int"}.get(wrong.group(1), wrong.group(1)), wrong.group(2)
@@ -178,7 +172,7 @@ def _absent(self, name):
 	"""What is said where an attribute or a method that is not there is read."""
 	kind = type(self)
 	known = [word for word in dir(kind) if not word.startswith("_")]
-	raise AttributeError(f"{kind.__name__} has no attribute {name}{_closest(name, known)}")
+	raise AttributeError(f"{kind.__name__} has no attribute {name}{closest(name, known)}")
 
 
 def _set(self, name, value):
@@ -196,4 +190,4 @@ def _set(self, name, value):
 			if type(error).__name__ != "ArgumentError": raise
 			present = getattr(self, name)
 		raise TypeError(f"{kind.__name__}.{name} must be {wordsOf(type(present).__name__)}, got {value!r}")
-	raise AttributeError(f"{kind.__name__} has no attribute {name}{_closest(name, _attributes(kind))}; known: {' '.join(_attributes(kind))}")
+	raise AttributeError(f"{kind.__name__} has no attribute {name}{closest(name, _attributes(kind))}; known: {' '.join(_attributes(kind))}")

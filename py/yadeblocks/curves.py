@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+fall = 0.05 # share of the highest value by which y must fall behind it to have shown a peak
 noise = 0.02 # share of the way to the peak over which `measure` takes means
 
 
@@ -15,6 +16,31 @@ def peak(x, y, smooth=0.0):
 	top = int(y.argmax())
 	window = max(1, np.count_nonzero(x[:top + 1] >= (1 - smooth) * x[top])) if x[top] > 0 and smooth else 1
 	return np.convolve(y, np.ones(window) / window, mode="valid").max(), top
+
+
+def firstPeak(y):
+	"""Index of the highest value before y falls by 5 % for the first time; what oscillates below half of the highest is no peak."""
+	y = np.asarray(y, float)
+	highest = np.maximum.accumulate(y)
+	fallen = np.flatnonzero((y < (1 - fall) * highest) & (highest > y.max() / 2))
+	return int(np.argmax(y[:fallen[0] if len(fallen) else len(y)]))
+
+
+def hasPeak(y):
+	"""Whether y falls by 5 % after its highest value; what only rises has not shown its peak."""
+	y = np.asarray(y, float)
+	return bool(np.isfinite(y).any() and y[np.nanargmax(y):].min() < (1 - fall) * np.nanmax(y))
+
+
+def atFirst(happened, y):
+	"""The value of y where something has happened for the first time, such as a crack; NaN if it has not."""
+	happened = np.asarray(happened) > 0
+	return np.asarray(y, float)[happened][0] if happened.any() else math.nan
+
+
+def largestBehindStart(y):
+	"""The largest value behind the first tenth of the samples."""
+	return y[len(y) // 10:].max()
 
 
 def behindPeak(x, y, share):
@@ -54,12 +80,6 @@ def aboveResidual(x, y):
 	if not len(behind): return math.nan
 	last = top + behind[0] + 1
 	return np.trapz(np.maximum(y[:last] - low, 0), x[:last])
-
-
-def hasPeak(y):
-	"""Whether y falls by 5 % after its highest value; what only rises has not shown its peak."""
-	y = np.asarray(y, float)
-	return bool(np.isfinite(y).any() and y[np.nanargmax(y):].min() < 0.95 * np.nanmax(y))
 
 
 class Peak:

@@ -41,6 +41,12 @@ def dissipated():
 	return {cause: entries.get(name, 0.0) for cause, name in sinks.items()}
 
 
+def addDissipated(run, unit, by=1.0):
+	"""Adds what was dissipated to a results.Run, a quantity for each cause: energies [J] by a number, an area, say."""
+	for cause, energy in dissipated().items():
+		run.add("dissipated_" + cause, unit, energy / by)
+
+
 def error():
 	"""What `dissipated` adds up to, less what was spent, by what was spent; NaN if nothing was."""
 	heat = spent()

@@ -43,7 +43,7 @@ class Group:
 	def motion(self, values):
 		"""loading.Motion of it: a function of the time [s], or a table (times, values), of its velocity [m/s] or force [N]; its `engine()`
 		stands first in O.engines."""
-		from .loading import Motion
+		from .loading.motion import Motion
 		return Motion(self.model, self.name, values)
 
 	def setTarget(self, target, rampTime=0.0):

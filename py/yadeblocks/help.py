@@ -6,10 +6,8 @@
 	python3 -m yadeblocks.help scripts/shear.py size=0.003    # nothing, or what is wrong with these keys, and code 2
 """
 import ast
-import runpy
 import signal
 import sys
-import types
 from pathlib import Path
 
 
@@ -30,8 +28,8 @@ def listing(folder):
 def explain(path):
 	"""Prints what a scenario says of itself and its keys with defaults, units and meanings.
 
-	The script is run up to its scenario.parameters(...), which prints the keys and ends it; an empty module stands in for YADE, which is not needed
-	until then."""
+	The script is run up to its scenario.parameters(...), which prints the keys and ends it, without its imports of YADE, which is not needed until
+	then."""
 	path = Path(path)
 	print(_words(path) or path.stem, end="\n\n")
 	if not _hasParameters(path): return print("It has no keys.")
@@ -63,31 +61,40 @@ def check(path, *words):
 
 
 def _runToItsKeys(path, *words):
-	before = sys.argv, sys.modules.get("yade")
-	sys.argv, sys.modules["yade"] = [str(path), *words], _Nothing("yade")
+	code, before = compile(_WithoutYade().visit(_parsed(path)), str(path), "exec"), sys.argv
+	sys.argv = [str(path), *words]
 	try:
-		runpy.run_path(str(path), run_name="__main__")
+		exec(code, {"__name__": "__main__", "__file__": str(path)})
 	except SystemExit as end:
 		if end.code: raise
 	finally:
-		sys.argv = before[0]
-		if before[1] is None: del sys.modules["yade"]
-		else: sys.modules["yade"] = before[1]
+		sys.argv = before
 
 
-class _Nothing(types.ModuleType):
-	"""A module from which anything can be imported, and `*` brings nothing."""
-	def __getattr__(self, name):
-		if name.startswith("__"): raise AttributeError(name)
-		return _Nothing(name)
+class _WithoutYade(ast.NodeTransformer):
+	"""Leaves out a script's imports of YADE."""
+	def visit_Import(self, node):
+		node.names = [alias for alias in node.names if not _isYade(alias.name)]
+		return node if node.names else ast.copy_location(ast.Pass(), node)
+
+	def visit_ImportFrom(self, node):
+		return ast.copy_location(ast.Pass(), node) if not node.level and _isYade(node.module) else node
+
+
+def _isYade(module):
+	return module.split(".")[0] == "yade"
+
+
+def _parsed(path):
+	return ast.parse(Path(path).read_text())
 
 
 def _words(path):
-	return ast.get_docstring(ast.parse(path.read_text())) or ""
+	return ast.get_docstring(_parsed(path)) or ""
 
 
 def _hasParameters(path):
-	called = [node.func for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Call)]
+	called = [node.func for node in ast.walk(_parsed(path)) if isinstance(node, ast.Call)]
 	return any(getattr(function, "attr", getattr(function, "id", "")) == "parameters" for function in called)
 
 

@@ -13,8 +13,9 @@ import numpy as np
 
 from ._calls import door
 from ._kinds import shown, wrong
-from ._same import onGrid, unit
-from .layout import Layout, joinSmall, _shapely
+from .layout import Layout
+from .plane import left, onGrid, unit
+from .polygons import fromBelow, holesOf, joinSmall, needShapely, outlineOf, region
 
 #: Parallel joints. dip: angle of the traces with the x axis, counter-clockwise [degrees]; spacing: normal distance [m]; persistence: share of a trace that is
 #: joint, the rest is rock; length: mean length of the joints in a trace that is not persistent [m], 0: three spacings; scatter: standard deviation of spacing
@@ -40,13 +41,11 @@ def cut(outline, sets=(), cracks={}, holes=(), least=0.0):
 		if not isinstance(joints, JointSet): raise TypeError(f'cut.sets must be a list of JointSets, and one is {shown(joints)}')
 		_requireKinds(joints)
 	if least < 0: raise ValueError(f'cut.least must not be negative, got {least!r}')
-	shapely = _shapely()
-	region = shapely.geometry.Polygon(outline, holes)
-	if not region.is_valid: raise ValueError('cut.outline must be a simple polygon that holds its holes: ' + shapely.validation.explain_validity(region))
+	shapely, whole = needShapely(), region('cut.outline', outline, holes)
 	traces = {}
 	for joints in sets:
 		if joints.name in traces: raise ValueError(f'cut: the name {joints.name!r} must be given once')
-		traces[joints.name] = _tracesOf(joints, region.bounds)
+		traces[joints.name] = _tracesOf(joints, whole.bounds)
 	for name, points in cracks.items():
 		said = wrong('cut.cracks: a name', name, 'str') or wrong(f'cut.cracks: {name!r}', points, 'points')
 		if said: raise said
@@ -54,17 +53,17 @@ def cut(outline, sets=(), cracks={}, holes=(), least=0.0):
 		points = np.asarray(points, float)
 		if len(points) < 2 or not np.hypot(*np.diff(points, axis=0).T).all():
 			raise ValueError(f'cut.cracks: {name!r} must have at least two points, each away from the one before, got {shown(points.tolist())}')
-		if not shapely.geometry.LineString(points).intersects(region):
+		if not shapely.geometry.LineString(points).intersects(whole):
 			raise ValueError(f'cut.cracks: {name!r} must reach the polygon, got {shown(points.tolist())}')
 		traces[name] = list(np.stack([points[:-1], points[1:]], axis=1))
 	lines = [shapely.geometry.LineString(trace) for of in traces.values() for trace in of]
-	inside = [part for line in lines for part in _lines(line.intersection(region))]
-	pieces = _polygons(shapely, region, inside)
-	pieces, merged = joinSmall(shapely, pieces, least)
-	between = sum(piece.length for piece in pieces) - region.length # every side within is counted twice
+	inside = [part for line in lines for part in _lines(line.intersection(whole))]
+	pieces = _polygons(shapely, whole, inside)
+	pieces, merged = joinSmall(pieces, least)
+	between = sum(piece.length for piece in pieces) - whole.length # every side within is counted twice
 	lost = sum(line.length for line in inside) - between / 2
-	return Layout([np.array(piece.exterior.coords) for piece in pieces], ['block'] * len(pieces), np.arange(len(pieces)), _namer(traces),
-			[[np.array(ring.coords)[:-1] for ring in piece.interiors] for piece in pieces], traces=traces, lostLength=max(0.0, lost), merged=merged)
+	return Layout([outlineOf(piece) for piece in pieces], ['block'] * len(pieces), np.arange(len(pieces)), _namer(traces),
+			[holesOf(piece) for piece in pieces], traces=traces, lostLength=max(0.0, lost), merged=merged)
 
 
 def _requireKinds(joints):
@@ -88,7 +87,7 @@ def _tracesOf(joints, bounds):
 	x0, y0, x1, y1 = bounds
 	corners, through = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]), np.asarray(joints.through, float)
 	along = unit(math.radians(joints.dip))
-	across = np.array([-along[1], along[0]])
+	across = left(along)
 	far, reach = (corners - through) @ across, np.hypot(x1 - x0, y1 - y0)
 	middle = (corners.mean(axis=0) - through) @ along
 	joint = joints.length or 3 * joints.spacing
@@ -123,15 +122,14 @@ def _lines(shape):
 	return [part for part in getattr(shape, 'geoms', [shape]) if part.geom_type == 'LineString' and part.length > 0]
 
 
-def _polygons(shapely, region, lines):
-	"""The pieces of a region between lines, in order of their centroids from below, then from the left."""
-	x0, y0, x1, y1 = region.bounds
-	network = shapely.ops.unary_union([*lines, region.boundary])
+def _polygons(shapely, whole, lines):
+	"""The pieces of a polygon between lines, in order."""
+	x0, y0, x1, y1 = whole.bounds
+	network = shapely.ops.unary_union([*lines, whole.boundary])
 	# where a line meets a corner, or two others where they cross, rounding parts what is one point
 	parts = [onGrid(part.coords, max(x1 - x0, y1 - y0)) for part in _lines(network)]
 	network = shapely.ops.unary_union([shapely.geometry.LineString(points) for points in parts if np.ptp(points, axis=0).any()])
-	pieces = [piece for piece in shapely.ops.polygonize(network) if region.contains(piece.representative_point())]
-	return sorted(pieces, key=lambda piece: (round(piece.centroid.y, 9), piece.centroid.x))
+	return fromBelow(piece for piece in shapely.ops.polygonize(network) if whole.contains(piece.representative_point()))
 
 
 def _namer(traces):
@@ -141,7 +139,7 @@ def _namer(traces):
 	def nameOf(normals, ends, samePiece):
 		a, b = all_[:, 0], all_[:, 1]
 		direction = (b - a) / np.hypot(*(b - a).T)[:, None]
-		across = np.column_stack([-direction[:, 1], direction[:, 0]])
+		across = left(direction)
 		offset = abs(np.einsum('sekd,kd->sek', ends[:, :, None] - a, across)).max(axis=1) # of the farther end from the line of each trace
 		s = np.einsum('sekd,kd->sek', ends[:, :, None] - a, direction).mean(axis=1) # of the middle along it
 		beyond = np.maximum(0, np.maximum(-s, s - np.hypot(*(b - a).T)))

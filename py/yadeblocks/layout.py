@@ -13,25 +13,9 @@ from collections import Counter
 import numpy as np
 
 from ._calls import door
-from ._kinds import wrong
-from ._same import unit
-
-
-def area(ring):
-	"""Area of a polygon [m2], positive if it is counter-clockwise."""
-	x, y = np.asarray(ring, float).T
-	return (x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
-
-
-def counterClockwise(ring):
-	"""The polygon as an (n, 2) array with material on the left [m]; ValueError if it has less than three corners or no area."""
-	said = wrong('an outline', ring, 'polygon')
-	if said: raise ValueError(str(said))
-	ring = np.array(ring, float)
-	if len(ring) > 3 and (ring[0] == ring[-1]).all(): ring = ring[:-1]
-	size = area(ring)
-	if not abs(size) > 0: raise ValueError('a polygon must have an area, got one of %g' % size)
-	return ring if size > 0 else ring[::-1]
+from .plane import unit
+from .polygons import area, corners, counterClockwise, needShapely
+from .readings.joints import onEdge
 
 
 class Layout:
@@ -130,9 +114,7 @@ class Placed:
 		ours = place[pairs]
 		within = (ours >= 0).all(axis=1)
 		names = np.where((ours >= 0).any(axis=1), self.outside, '').astype(object)
-		ends = np.asarray(model.reference)[np.asarray(model.segmentNodes)[within, :2]]
-		t = np.asarray(model.segmentParameters)[within, :2, None]
-		ends = (1 - t) * ends[:, :1] + t * ends[:, 1:]
+		ends = onEdge(model, model.reference, 0)[within]
 		pieces = self.layout.pieces[ours[within]]
 		names[within] = self.layout.nameOf(np.asarray(model.normal)[within], ends, pieces[:, 0] == pieces[:, 1])
 		return {name: np.flatnonzero(names == name) for name in sorted(set(names) - {''})}
@@ -150,7 +132,7 @@ class Mortared:
 	@door('gap', layout='layout')
 	def __init__(self, layout, gap):
 		if not gap > 0: raise ValueError(f'Mortared.gap must be positive, got {gap!r}')
-		shapely = _shapely()
+		shapely = needShapely()
 		self.layout, self.gap = layout, gap
 		shapes = [shapely.geometry.Polygon(ring, holes) for ring, holes in zip(layout.outlines, layout.holes)]
 		region = shapely.ops.unary_union(shapes)
@@ -168,14 +150,12 @@ class Mortared:
 				raise ValueError(
 					f'Mortared.gap must leave something of every block, got {gap!r} for block {number} of {shapes[number].area:g} m2'
 				)
-		self.blocks = Layout([_corners(stone.exterior) for stone in stones], layout.kinds, layout.pieces, layout.nameOf,
-					[[_corners(ring) for ring in stone.interiors] for stone in stones], **layout.notes)
+		self.blocks = Layout([corners(stone.exterior) for stone in stones], layout.kinds, layout.pieces, layout.nameOf,
+					[[corners(ring) for ring in stone.interiors] for stone in stones], **layout.notes)
 		solid = [shapely.geometry.Polygon(ring, holes) for ring, holes in zip(self.blocks.outlines, self.blocks.holes)]
-		region = shapely.geometry.Polygon(_corners(region.exterior), [_corners(ring) for ring in region.interiors])
+		region = shapely.geometry.Polygon(corners(region.exterior), [corners(ring) for ring in region.interiors])
 		rest = region.difference(shapely.ops.unary_union(solid))
-		self.mortar = [
-			(_corners(part.exterior), [_corners(ring) for ring in part.interiors]) for part in getattr(rest, 'geoms', [rest]) if part.area > 0
-		]
+		self.mortar = [(corners(part.exterior), [corners(ring) for ring in part.interiors]) for part in getattr(rest, 'geoms', [rest]) if part.area > 0]
 
 	@door('zoneSize', 'size', model='model', material='str', mortar='str')
 	def addTo(self, model, material, mortar, zoneSize, size, **voronoi):
@@ -186,34 +166,3 @@ class Mortared:
 		for outline, holes in self.mortar:
 			model.addVoronoi(counterClockwise(outline).tolist(), mortar, size=size, holes=[ring.tolist() for ring in holes], **voronoi)
 		return Placed(self.blocks, self.blocks.addTo(model, material, zoneSize=zoneSize).blocks, outside='mortar')
-
-
-def _corners(ring):
-	"""Corners of a ring of shapely's, those on straight sides left out, to the nanometre: neighbours' corners are then the same."""
-	points = np.round(np.array(ring.coords)[:-1], 9)
-	before, behind = points - np.roll(points, 1, axis=0), np.roll(points, -1, axis=0) - points
-	bends = abs(before[:, 0] * behind[:, 1] - before[:, 1] * behind[:, 0]) > 1e-9 * np.hypot(*before.T) * np.hypot(*behind.T)
-	return points[bends]
-
-
-def joinSmall(shapely, pieces, least):
-	"""Polygons of shapely's of which those with less area than `least` [m2] have joined the neighbour with the longest side in common; how many."""
-	merged = 0
-	while True:
-		small = min(pieces, key=lambda piece: piece.area)
-		if small.area >= least or len(pieces) == 1: return pieces, merged
-		side = lambda piece: small.intersection(piece).length if piece is not small else -1
-		neighbour = max(pieces, key=side)
-		if not side(neighbour) > 0: raise ValueError(f'a block of {small.area:g} m2 has no neighbour to join')
-		pieces = [shapely.ops.unary_union([small, piece]) if piece is neighbour else piece for piece in pieces if piece is not small]
-		merged += 1
-
-
-def _shapely():
-	try:
-		import shapely.geometry
-		import shapely.ops
-		import shapely.validation
-	except ImportError as error:
-		raise ImportError('this needs shapely: scripts/install.sh python3-shapely') from error
-	return shapely

@@ -15,7 +15,10 @@ import numpy as np
 
 from ._calls import door
 from ._kinds import shown
-from .export import areasAndCentroids
+from .plane import cross, left
+from .readings.blocks import areasAndCentroids, blockOfNodes
+from .readings.materials import ofMaterials
+from .readings.status import intact, neverBonded
 
 #: load: the multiplier [-] or the force [N] at the limit; sigma, tau: stresses of the contact points there, tension positive [Pa], in general not the only
 #: possible ones; mechanism: how the blocks then move, velocity of the centroid [m/s] and rotation [rad/s], (blocks, 3), so that the load's power is 1 W, or
@@ -29,8 +32,7 @@ roundings = 1e-12
 @door(model='blockModel', acceleration='point')
 def bodyForces(model, acceleration):
 	"""Mass times an acceleration [m/s2] for every block, at its centroid, (blocks, 2) [N]: weights with (0, -9.81)."""
-	from yade import O
-	density = np.array([O.materials[label].density for label in model.materialLabels])[model.blockMaterial]
+	density = ofMaterials(model, 'density')[model.blockMaterial]
 	areas, _ = areasAndCentroids(model)
 	return (density * areas * model.thickness)[:, None] * np.asarray(acceleration, float)
 
@@ -79,7 +81,7 @@ class _Problem:
 		size, moved = np.ptp(np.asarray(model.reference), axis=0).max(), abs(np.asarray(model.position) - model.reference).max()
 		if moved > roundings * size:
 			raise RuntimeError(f'limit analysis: the model must be as it was built; grid points have moved by up to {moved:.3g} m')
-		changed = np.count_nonzero(~np.isin(model.pointStatus, (0, 3)))
+		changed = np.count_nonzero(~np.isin(model.pointStatus, (intact, neverBonded)))
 		if changed: raise RuntimeError(f'limit analysis: joints must be as they were built; {changed} contact points have broken or soften')
 		self.moves = np.ones(self.blocks, bool)
 		if fixed is not None:
@@ -151,25 +153,24 @@ class _Problem:
 		model = self.model
 		both = lambda column: np.repeat(np.asarray(column), 2, axis=0) # two contact points a joint
 		properties = {name: both(column) for name, column in model.jointProperties.items()}
-		never = np.asarray(model.pointStatus) == 3
+		never = np.asarray(model.pointStatus) == neverBonded
 		self.cohesion, self.tension = (np.where(never, 0, properties[name]) for name in ('cohesion', 'tension'))
 		self.friction = np.tan(np.where(never, properties['frictionAngleResidual'], properties['frictionAngle']))
 		self.area, self.points = both(model.segmentArea), len(never)
 		normal, places = both(model.normal), np.asarray(model.contactPositions())
-		along = np.column_stack([-normal[:, 1], normal[:, 0]])
-		for direction in (normal, along): # a tension draws the first block to the second
+		for direction in (normal, left(normal)): # a tension draws the first block to the second
 			columns = self._columns(self.points, 1, force=False)
 			for side, sign in ((0, 1), (1, -1)):
 				self._force(both(model.segmentBlocks)[:, side], columns, places, sign * self.area[:, None] * direction)
 
 	def _groups(self, asked):
-		model, first = self.model, np.asarray(self.model.firstNode)
+		model, blocks = self.model, blockOfNodes(self.model)
 		for group in model.groups:
 			nodes = np.asarray(model.groupNodes(group))
 			for axis in model.groupAxes(group):
 				columns = self.held[group, axis] = self._columns(len(nodes), 1, force=True)
 				unit = np.tile((axis == 'x', axis == 'y'), (len(nodes), 1)).astype(float)
-				self._force(np.searchsorted(first, nodes, side='right') - 1, columns, np.asarray(model.reference)[nodes], unit)
+				self._force(blocks[nodes], columns, np.asarray(model.reference)[nodes], unit)
 			push = model.groupPushForce(group)
 			if push is not None and group != asked: # along its one axis
 				self.entries.append((np.full(len(columns), len(self.right)), columns, np.ones(len(columns))))
@@ -181,7 +182,7 @@ class _Problem:
 
 	def _force(self, blocks, columns, places, forces):
 		arm = places - self.centroids[blocks]
-		for axis, values in enumerate((forces[:, 0], forces[:, 1], arm[:, 0] * forces[:, 1] - arm[:, 1] * forces[:, 0])):
+		for axis, values in enumerate((forces[:, 0], forces[:, 1], cross(arm, forces))):
 			self.entries.append((3 * blocks + axis, columns, values))
 
 

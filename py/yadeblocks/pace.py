@@ -10,6 +10,7 @@ import sys
 import numpy as np
 
 from ._calls import door
+from .readings.materials import ofMaterials
 
 kineticShare, reactionsApart = 0.05, 0.1 # what is plainly too fast: kinetic by strain energy, reaction against load
 _least = 10 # looks that are taken together: single ones tell of waves
@@ -29,10 +30,8 @@ def strainEnergy(model, known={}):
 
 
 def _stiffnesses(model):
-	from yade.wrapper import Omega
-	materials = {material.label: material for material in Omega().materials}
 	zones = np.repeat(model.blockMaterial, np.diff(model.firstZone))
-	of = lambda name: np.array([getattr(materials[label], name) for label in model.materialLabels])[zones]
+	of = lambda name: ofMaterials(model, name)[zones]
 	properties = model.jointProperties
 	return dict(E=of("young"), nu=of("poisson"), kn=np.repeat(properties["kn"], 2), ks=np.repeat(properties["ks"], 2))
 

@@ -1,11 +1,14 @@
 # yade-blocks, GPL-2.0-or-later
 """One line that tells how far a long run has come.
 
-	progress = Progress(p.steps, lambda: loadingLine(displacement(), stress(), model), label="seed 1")
-	O.engines += [PyRunner(command="progress(O.iter)", iterPeriod=100)]
+	record = Recorder(displacement=gauge, stress=lambda: model.groupForce("top") / area)
+	with Progress(p.steps, lambda: loadingLine(record.last.displacement, record.last.stress, model), label="seed 1") as progress:
+		record.after(lambda row: progress(O.iter))
 """
 import sys
 import time
+
+from .readings.status import isBroken
 
 
 class Progress:
@@ -58,7 +61,7 @@ class Progress:
 
 def loadingLine(displacement, stress, model, pace=None):
 	"""The usual report of a strength test: displacement [m], stress [Pa], broken contact points and, with a pace.Pace, what it says."""
-	broken = ((model.pointStatus == 1) | (model.pointStatus == 2)).sum()
+	broken = isBroken(model.pointStatus).sum()
 	return f"u {displacement * 1e3:.4f} mm  stress {stress / 1e6:.3f} MPa  broken {broken}" + (f"  {pace.words()}" if pace else "")
 
 

@@ -79,7 +79,7 @@ def runner(name, function, iterPeriod=1, **attributes):
 	"""A PyRunner that calls a function every so many steps; `name` tells it from others, also in a scene that was saved and loaded."""
 	from yade.wrapper import PyRunner
 	known(name, function)
-	return PyRunner(command=f"__import__('yadeblocks.recording').recording.call({name!r})", iterPeriod=iterPeriod, **attributes)
+	return PyRunner(command=f"import yadeblocks.recording; yadeblocks.recording.call({name!r})", iterPeriod=iterPeriod, **attributes)
 
 
 def known(name, function):

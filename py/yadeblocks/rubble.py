@@ -9,7 +9,8 @@ Needs shapely (Debian's python3-shapely)."""
 import numpy as np
 
 from ._calls import door
-from .layout import Layout, joinSmall, _shapely
+from .layout import Layout
+from .polygons import fromBelow, holesOf, joinSmall, needShapely, outlineOf, region
 
 
 @door('size', 'seed', 'lloyd', 'flatness', outline='polygon', holes='polygons')
@@ -25,30 +26,27 @@ def rubble(outline, size, seed=1, lloyd=2, flatness=1.0, holes=()):
 							and lloyd == int(lloyd), 'be a whole number >= 0'), ('flatness', flatness, flatness > 0, 'be positive'),
 						('seed', seed, seed >= 0 and seed == int(seed), 'be a whole number >= 0')):
 		if not fulfilled: raise ValueError(f'rubble.{name} must {rule}, got {value!r}')
-	shapely = _shapely()
-	region = shapely.geometry.Polygon(outline, holes)
-	if not region.is_valid: raise ValueError('rubble.outline must be a simple polygon that holds its holes: ' + shapely.validation.explain_validity(region))
+	shapely, whole = needShapely(), region('rubble.outline', outline, holes)
 	stretch = np.array([1 / flatness**0.5, flatness**0.5]) # in which stones are as wide as high
 	flat = lambda shape, by: shapely.ops.transform(lambda x, y: (np.asarray(x) * by[0], np.asarray(y) * by[1]), shape)
-	even = flat(region, stretch)
-	count = max(2, round(region.area / size**2))
+	even = flat(whole, stretch)
+	count = max(2, round(whole.area / size**2))
 	points = _inside(shapely, even, count, np.random.default_rng(int(seed)))
 	for _ in range(int(lloyd) + 1):
 		cells = [cell.intersection(even) for cell in shapely.ops.voronoi_diagram(shapely.geometry.MultiPoint(points), envelope=even).geoms]
 		cells = [part for cell in cells for part in getattr(cell, 'geoms', [cell]) if part.geom_type == 'Polygon' and part.area > 0]
 		points = [cell.centroid for cell in cells]
-	cells = joinSmall(shapely, cells, size**2 / 20)[0]
-	stones = sorted((flat(cell, 1 / stretch) for cell in cells), key=lambda stone: (round(stone.centroid.y, 9), stone.centroid.x))
-	return Layout([np.array(stone.exterior.coords) for stone in stones], ['stone'] * len(stones), np.arange(len(stones)),
-			lambda normals, ends, samePiece: np.full(len(normals), 'stone'),
-			[[np.array(ring.coords)[:-1] for ring in stone.interiors] for stone in stones])
+	cells = joinSmall(cells, size**2 / 20)[0]
+	stones = fromBelow(flat(cell, 1 / stretch) for cell in cells)
+	return Layout([outlineOf(stone) for stone in stones], ['stone'] * len(stones), np.arange(len(stones)),
+			lambda normals, ends, samePiece: np.full(len(normals), 'stone'), [holesOf(stone) for stone in stones])
 
 
-def _inside(shapely, region, count, random):
-	"""Random points in a region."""
-	x0, y0, x1, y1 = region.bounds
+def _inside(shapely, polygon, count, random):
+	"""Random points in a polygon."""
+	x0, y0, x1, y1 = polygon.bounds
 	points = []
 	while len(points) < count:
 		point = shapely.geometry.Point(random.uniform(x0, x1), random.uniform(y0, y1))
-		if region.contains(point): points.append(point)
+		if polygon.contains(point): points.append(point)
 	return points

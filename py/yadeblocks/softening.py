@@ -10,10 +10,10 @@ Lourenco and Rots 1997, whose parameters these are."""
 import math
 from math import atan
 
-from . import experiments, scenario
+from . import experiments, masonry, scenario
 
 measured = dict(
-	kn=400e9, ks=200e9, tension=1e6 * experiments.tensileStrength[0], cohesion=1e6 * experiments.shearCohesion, frictionAngle=atan(
+	masonry.stiffnesses, tension=1e6 * experiments.tensileStrength[0], cohesion=1e6 * experiments.shearCohesion, frictionAngle=atan(
 		experiments.shearFriction
 	), frictionAngleResidual=atan(experiments.residualFriction), GfI=12.0, GfII=60.0, GfIIPressure=0.0, lastingShare=1.0
 )

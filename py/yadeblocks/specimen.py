@@ -3,6 +3,7 @@
 import numpy as np
 
 from ._calls import door
+from .readings.blocks import blockOfNodes
 
 
 def addCells(model, cells, outline, material, **options):
@@ -29,7 +30,7 @@ def nodesWhere(model, rule, label=None):
 		raise ValueError(
 			'nodesWhere.rule must return True or False for each of %d grid points, got an array of %s, %r' % (len(x), chosen.dtype, chosen.shape)
 		)
-	if label is not None: chosen &= np.repeat(blocksOf(model, label), np.diff(model.firstNode))
+	if label is not None: chosen &= blocksOf(model, label)[blockOfNodes(model)]
 	if not chosen.any(): raise ValueError('nodesWhere: no grid point is chosen by the rule')
 	return np.flatnonzero(chosen)
 

@@ -10,8 +10,8 @@ import math
 import numpy as np
 
 from ._calls import door
-from ._same import unit
 from .layout import Layout
+from .plane import unit
 
 
 @door('radius', 'thickness', 'count', 'angle', 'chords', centre='point')

@@ -2,12 +2,12 @@
 """What it costs to go from event to event, beside time steps: scripts/cost.sh events [tension=3e-3,2e-3,1e-3] [shear=3.3e-3,1.7e-3] [seed=1] [steps=true].
 
 Couplets in tension (Table 3 for all joints, Lloyd 0) and in shear (Table 5, 0.5 N/mm2, Lloyd 1), sizes = sqrt(area) [m] of the blocks in the mortar; the
-bricks' zones grow with them. Each solver has a process of its own. `follow` goes on until the force has fallen to half of the peak (in the snap-backs before
-it, it falls by less), the steps, which set out at the first crack, to 0.8 of it. Their number is what gives 1 % at the usual sizes (40,000 for 0.03 mm in
-tension, 48,000 for 1 mm in shear up to the peak at a fifth of that speed), and more for smaller blocks, through which waves take more steps. CPU seconds are
-those of `follow`, or of jump and steps; start is that of YADE with building the specimen. MB is the largest memory of the process, of which YADE itself has
-250 or so. steps=false leaves them out: at 148,000 zones (tension=0.3e-3) they take some ten minutes. Leaves out/cost/events.csv and a table in Markdown on the
-terminal."""
+bricks' zones grow with them. Each solver has a process of its own (eventscene.py). `follow` goes on until the force has fallen to half of the peak (in the
+snap-backs before it, it falls by less), the steps, which set out at the first crack, to 0.8 of it. Their number is what gives 1 % at the usual sizes (40,000
+for 0.03 mm in tension, 48,000 for 1 mm in shear up to the peak at a fifth of that speed), and more for smaller blocks, through which waves take more steps.
+CPU seconds are those of `follow`, or of jump and steps; start is that of YADE with building the specimen. MB is the largest memory of the process, of which
+YADE itself has 250 or so. steps=false leaves them out: at 148,000 zones (tension=0.3e-3) they take some ten minutes. Leaves out/cost/events.csv and a table in
+Markdown on the terminal."""
 import csv
 import json
 import os
@@ -17,60 +17,6 @@ from pathlib import Path
 
 root = Path(__file__).resolve().parents[2]
 
-scene = r'''
-import json, math, os, resource, time
-import numpy as np
-import yadeblocks
-from yade import *
-from yadeblocks import loading
-from yadeblocks.engines import loopList
-from yadeblocks.specimen import nodesWhere, rectangle
-
-wish = json.loads(os.environ["COST"])
-size, shears = wish["size"], wish["experiment"] == "shear"
-length, thickness, low, high = 0.2 if shears else 0.1, 0.05, 0.05, 0.065
-area, model = length * thickness, BlockModel(thickness=thickness)
-O.materials.append(BlockMat(label='unit', young=16.7e9, poisson=0.2, density=1900))
-O.materials.append(BlockMat(label='mortar', young=2.974e9, poisson=0.2, density=1250))
-model.addVoronoi(rectangle(0, low, length, high), 'mortar', size=size, lloyd=1 if shears else 0, seed=wish["seed"], mergeFraction=0.1 if shears else 0.2)
-for bottom in (0, high):
-	model.addRegion(rectangle(0, bottom, length, bottom + low), 'unit', zoneSize=(2.3 if shears else 2) * size)
-kinds = dict(kn=400e9, ks=200e9) # [Pa/m]
-if shears: kinds.update(cohesion=3e6, tension=1.5e6, frictionAngle=math.radians(45), frictionAngleResidual=math.radians(36))
-else: kinds.update(cohesion=0.6e6, tension=0.6e6, frictionAngle=math.radians(38), dilationAngle=math.radians(4))
-model.bond([JointMat(material1=a, material2='mortar', **kinds) for a in ('mortar', 'unit')])
-top = nodesWhere(model, lambda x, y: y > high + low - 1e-9)
-model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
-if shears: model.push('press', top, 'y', force=-0.5e6 * area)
-speed = 0.2e-3 if shears else 0.02e-3 # [m/s]
-model.drive('load', top, 'x' if shears else 'y', velocity=speed)
-model.insert()
-stroke = 1e-3 if shears else 0.03e-3 # [m]
-O.dt = stroke / speed / wish["steps"]
-O.engines = loopList(contact=shears, alpha=0.2 if shears else 0.8)
-start = time.process_time()
-if wish["solver"] == "events":
-	path = model.follow('load', displacement=2 * stroke)
-	peak, count, broken, told = path['force'].max(), path['steps'], len(path['crackPoint']), path['ended']
-else:
-	if shears: model.setThrottle('load', 0.2)
-	model.elasticJump()
-	stop, forces = loading.Stop(drop=0.8, displacement=2 * stroke), [model.groupForce('load')]
-	def look():
-		forces.append(model.groupForce('load'))
-		stop(model.groupTravelled('load'), forces[-1], np.count_nonzero(model.pointStatus))
-	O.engines += [PyRunner(command='look()', iterPeriod=25)]
-	from yadeblocks import running
-	running.run(100 * wish["steps"])
-	peak, count, broken, told = max(forces), O.iter, int(np.count_nonzero(model.pointStatus)), stop.reason
-cpu = time.process_time() - start
-rss = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-print("COST " + json.dumps(dict(
-	zones=model.zoneCount, points=model.contactCount, start=start, cpu=cpu,
-	peak=peak / area / 1e6, count=int(count), broken=int(broken), rss=rss, ended=told
-)))
-'''
-
 usual = {"tension": (2e-3 * 1.61, 40000), "shear": (3.5e-3, 48000)} # sqrt(area) of the blocks, steps that give 1 % (README)
 
 
@@ -79,7 +25,7 @@ def measure(**wish):
 		os.environ, COST=json.dumps(wish), PYTHONPATH=str(root / "py"), YADEBLOCKS_PLUGIN=str(root / "build/libyadeblocks.so"),
 		OMP_WAIT_POLICY="passive"
 	)
-	run = subprocess.run(["yade", "-n", "-x", "-j", "1", str(root / "out/cost/events.py")], env=environment, capture_output=True, text=True)
+	run = subprocess.run(["yade", "-n", "-x", "-j", "1", str(root / "scripts/laboratory/eventscene.py")], env=environment, capture_output=True, text=True)
 	lines = [line for line in run.stdout.splitlines() if line.startswith("COST ")]
 	if not lines: raise SystemExit(f"cost: the run with {wish} failed:\n{run.stdout[-1500:]}{run.stderr[-1500:]}")
 	return json.loads(lines[0][5:])
@@ -94,7 +40,6 @@ def main(arguments):
 	if keys["steps"] not in ("true", "false"): raise SystemExit(f"cost: steps must be true or false, got {keys['steps']}")
 	folder = root / "out/cost"
 	folder.mkdir(parents=True, exist_ok=True)
-	(folder / "events.py").write_text(scene)
 	rows = []
 	print(
 		"| experiment | zones | points | broken | pieces | CPU s | ms a piece | start s | MB | time steps | CPU s | MB | peak |\n|" + "---|" * 13,

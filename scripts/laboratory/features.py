@@ -1,5 +1,5 @@
 # yade-blocks, GPL-2.0-or-later
-"""Where the code of each optional feature is, for what it costs while it is off (scripts/price.py)."""
+"""Where the code of each optional feature is, for what it costs while it is off (pricetable.py)."""
 import re
 from pathlib import Path
 

@@ -56,12 +56,12 @@ def asMarkdown(all):
 
 def draw(path, all):
 	"""The size of the error over CPU seconds, a line for each quantity; its sign by the markers: filled above what is expected, open below."""
-	from yadeblocks import pictures
+	from yadeblocks.pictures.figure import picture
 	groups = {}
 	for row in all:
 		if "failed" not in row and row["error"] and not math.isnan(row["error"]):
 			groups.setdefault((row["scenario"], row["quantity"]), []).append((row["cpu_s"], 100 * row["error"]))
-	with pictures._picture(path, 6.3, 4) as figure:
+	with picture(path, 6.3, 4) as figure:
 		axes = figure.add_subplot(xscale="log", yscale="log", xlabel="CPU time [s]", ylabel="size of the error [%]; filled: too high, open: too low")
 		for (name, quantity), places in groups.items():
 			seconds, error = np.array(sorted(places)).T

@@ -25,3 +25,15 @@ def plain(value):
 	if isinstance(value, float):
 		return repr(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
 	return str(value)
+
+
+def inWords(settings):
+	"""A setting in a few words: what it is in mm, thousands of steps, and so on."""
+	words = {
+		"steps": lambda n: f"{n / 1000:g}k steps", "size": lambda x: f"{1e3 * x:g} mm", "unitSize": lambda x: f"{1e3 * x:g}",
+		"joints": lambda which: f"{which} joints", "tail": lambda x: f"to {100 * x:g} %", "mortarSize": lambda x: f"/ {1e3 * x:g} mm",
+		"radius": lambda x: f"r {1e3 * x:.3g} mm", "plane": lambda x: f"plane {x}", "units": lambda x: f"{x} units", "solver": lambda x: x,
+		"release": lambda x: f"{x}s", "damping": lambda x: f"{x} damping", "servo": lambda on: "servo"
+		if on else "no servo", "afterPeak": lambda on: "on behind the peak" if on else "to the peak", "jump": lambda on: "jump" if on else "no jump"
+	}
+	return " ".join(words.get(key, lambda x: f"{key} {x}")(value) for key, value in settings.items())

@@ -55,6 +55,15 @@ def test_includesGoWhereTheTableSays(path):
 	assert not [name for name in ours if not (name.startswith('<blocks/') and str(PurePosixPath(name[8:-1]).parent) in mayUse)]
 
 
+def test_everyModuleStandsInTheTable():
+	"""py/README.md: each module and folder of yadeblocks once, and nothing else."""
+	rows = re.findall(r'^\| [^|`]+ \| (.*) \|$', (house / 'py/README.md').read_text(), re.M)
+	told = re.findall(r'`([\w/]+)`', ' '.join(rows))
+	package = house / 'py/yadeblocks'
+	modules = [path.stem for path in package.glob('*.py') if path.stem != '__init__'] + [f'{path.parent.name}/' for path in package.glob('*/__init__.py')]
+	assert sorted(told) == sorted(modules)
+
+
 def test_noStrangeTopLevel():
 	if not shutil.which('git'): pytest.skip('no git')
 	listed = subprocess.run(['git', 'ls-files'], cwd=house, capture_output=True, text=True)

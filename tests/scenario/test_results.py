@@ -19,8 +19,9 @@ import numpy as np
 import pytest
 
 from yadeblocks import export, pictures, progress, results, scenario, snapshot
+from yadeblocks.pictures import colours, cracks, view
 
-package = Path(results.__file__).parent
+package = Path(progress.__file__).parent
 
 
 def column():
@@ -331,16 +332,16 @@ def test_removedBlocksAreInNoPicture(tmp_path):
 	"""The mortar, below, has been removed: nothing has its tone, and its cracks are neither drawn nor counted."""
 	import matplotlib.image
 	model = column()
-	mortar = tuple(int(pictures._blockTones["mortar"][i:i + 2], 16) / 255 for i in (1, 3, 5))
+	mortar = tuple(int(colours.blockTones["mortar"][i:i + 2], 16) / 255 for i in (1, 3, 5))
 	share = lambda path: (np.abs(matplotlib.image.imread(path)[..., :3] - mortar).max(axis=2) < 2e-3).mean()
 	assert share(pictures.drawCracks(tmp_path / "before.png", model)) > 0.1
 	model.removedBlocks = np.array([0])
 	assert share(pictures.drawCracks(tmp_path / "after.png", model)) == 0
 	from matplotlib.figure import Figure
 	axes = Figure().add_subplot()
-	assert not pictures._drawCrackLines(axes, model, model.position) # joint 0-1 is broken, 1-2 never was bonded
+	assert not cracks.drawCrackLines(axes, model, model.position) # joint 0-1 is broken, 1-2 never was bonded
 	model.removedBlocks = np.array([2])
-	assert len(pictures._drawCrackLines(axes, model, model.position)) == 2
+	assert len(cracks.drawCrackLines(axes, model, model.position)) == 2
 
 
 def test_exportWithoutJoints(tmp_path):
@@ -391,23 +392,23 @@ def test_exportBeginsAnew(tmp_path):
 def test_chainsJoinWhatMeets():
 	points = np.array([(0, 0), (1, 0), (2, 0), (3, 0), (2, 5)])
 	lines = points[[(0, 1), (2, 1), (2, 3), (2, 4)]] # a fork at point 2, which no chain passes
-	chains = pictures._chains(lines.astype(float), lines)
+	chains = cracks.chains(lines.astype(float), lines)
 	assert sorted(len(chain) for chain in chains) == [2, 2, 4] and sum(len(chain) for chain in chains) == 8
 	long = max(chains, key=len)[:, 0]
 	assert list(long) in ([0, 1, 1, 2], [2, 1, 1, 0])
 	ring = points[[(0, 1), (1, 4), (4, 0)]]
-	assert [len(chain) for chain in pictures._chains(ring.astype(float), ring)] == [6]
+	assert [len(chain) for chain in cracks.chains(ring.astype(float), ring)] == [6]
 
 
 @pytest.mark.parametrize("number, down", [(1, 1), (1.99, 1), (2, 2), (76, 50), (500, 500), (0.0049, 0.002), (99999, 50000)])
 def test_roundNumbers(number, down):
-	assert pictures._roundDown(number) == pytest.approx(down)
+	assert view.roundDown(number) == pytest.approx(down)
 
 
 def test_magnificationShowsDisplacements():
 	# a specimen of 1 m: 98 % of the displacements, 1 mm, may become 20 mm; an outlier does not count
-	assert pictures._visible(1, np.array([(0, 1e-3)] * 999 + [(0, 5)])) == 20
-	assert pictures._visible(1, np.zeros((9, 2))) == 1 and pictures._visible(1, np.ones((9, 2))) == 1
+	assert view.visible(1, np.array([(0, 1e-3)] * 999 + [(0, 5)])) == 20
+	assert view.visible(1, np.zeros((9, 2))) == 1 and view.visible(1, np.ones((9, 2))) == 1
 
 
 def test_picturesAreDrawn(tmp_path):
@@ -435,18 +436,28 @@ def outsideYade(code):
 
 def test_modulesNeedNoYade():
 	"""Each module by itself, by either way of importing it; YADE is missed only by those who ask for it."""
-	names = sorted(path.stem for path in package.glob("[a-z]*.py"))
-	for form in ("import yadeblocks.{}", "from yadeblocks import {}"):
+	paths = [path.relative_to(package).with_suffix("") for path in package.rglob("[a-z]*.py")]
+	paths += [path.relative_to(package).parent for path in package.rglob("*/__init__.py")]
+	names = sorted(".".join(path.parts) for path in paths)
+	assert {"curves", "results", "results.cracks"} <= set(names)
+	within = [("yadeblocks." + name).rpartition(".") for name in names]
+	for lines in [f"import yadeblocks.{name}" for name in names], [f"from {parent} import {name}" for parent, _, name in within]:
 		code = f"""if True:
 			import sys
-			for name in {names}:
-				exec({form!r}.format(name))
+			for name, line in zip({names}, {lines}):
+				exec(line)
 				assert 'yade' not in sys.modules and 'yadeblocks.' + name in sys.modules, name
 				for ours in [known for known in sys.modules if known.startswith('yadeblocks')]: del sys.modules[ours]"""
 		run = outsideYade(code)
 		assert run.returncode == 0, run.stderr
 	asked = outsideYade("import yadeblocks\nimport yade")
 	assert asked.returncode and "yadeblocks needs YADE: there is no /nowhere/lib/*/yade-double/py" in asked.stderr
+
+
+@pytest.mark.parametrize("name, now", [("jobs", "laboratory.jobs"), ("study", "laboratory.study and yadeblocks.provenance")])
+def test_modulesThatHaveMoved(name, now):
+	run = outsideYade(f"from yadeblocks import {name}")
+	assert run.stderr.splitlines()[-1].startswith(f"ImportError: yadeblocks.{name} is {now} now; ")
 
 
 def test_nothingHeavyIsImportedEarly():

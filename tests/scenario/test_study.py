@@ -111,8 +111,9 @@ def test_sourcesAreFollowed(tree):
 
 
 def test_realScriptsKnowTheirSources():
-	found = {path.name for path in provenance.sourcesOf(package.parents[1] / "scripts/tension.py", package)}
-	assert {"tension.py", "results.py", "scenario.py", "specimen.py", "export.py", "_plugin.py"} <= found and "packing.py" not in found
+	found = {path.relative_to(package.parents[1]).as_posix() for path in provenance.sourcesOf(package.parents[1] / "scripts/tension.py", package)}
+	modules = "__init__ _plugin specimen results/__init__ results/cracks scenario/parsing export/paraview readings/names".split()
+	assert {"scripts/tension.py", *(f"py/yadeblocks/{module}.py" for module in modules)} <= found and "py/yadeblocks/packing.py" not in found
 
 
 @pytest.mark.parametrize("changed", ["scripts/mine.py", "py/yadeblocks/export.py"])
@@ -548,7 +549,7 @@ def test_staleCalibrationIsTold(study5):
 	assert "Calibrated with other" not in study5("quick")
 	for name, old, new, said in [("scripts/spheres.py", "coarser=2, steps=20000", "coarser=2, steps=10000", "code"),
 					("py/yadeblocks/packing.py", "solidity = 0.86", "solidity = 0.9", "code"),
-					("scripts/benchmark.py", "22 * q", "21 * q", "parameters"),
+					("scripts/laboratory/yadefits.py", "22 * q", "21 * q", "parameters"),
 					("py/yadeblocks/curves.py", "noise = 0.02", "noise = 0.03", "code"),
 					("py/yadeblocks/experiments.py", "tensileStrength = 0.35", "tensileStrength = 0.36", "targets")]:
 		path = study5.file(name)

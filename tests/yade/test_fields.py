@@ -6,6 +6,7 @@ import pytest
 
 from scenes import *
 from yadeblocks import export, picturesfields, snapshot
+from yadeblocks.pictures import view
 
 
 @pytest.fixture(scope='module')
@@ -126,11 +127,10 @@ def test_filmTakesFramesByItself(column):
 
 def test_nothingIsCutOff():
 	"""Fragments and platens are in the picture, but not what has flown further than the specimen is large."""
-	from yadeblocks import pictures
 	reference = np.array([(0, 0), (1, 0), (1, 2), (0, 2.)])
-	low, high = pictures._window(reference, reference + [(0, 0), (1.5, 0), (0, 0), (0, 0)])
+	low, high = view.windowAround(reference, reference + [(0, 0), (1.5, 0), (0, 0), (0, 0)])
 	assert high[0] == pytest.approx(2.5, abs=0.05) and low == pytest.approx((0, 0), abs=0.05)
-	assert pictures._window(reference, reference + [(0, 0), (50, 0), (0, 0), (0, 0)])[1][0] == pytest.approx(1, abs=0.05)
+	assert view.windowAround(reference, reference + [(0, 0), (50, 0), (0, 0), (0, 0)])[1][0] == pytest.approx(1, abs=0.05)
 
 
 def test_rigidBlocksAlone(tmp_path):
@@ -167,9 +167,9 @@ def test_removedBlocksAreNotDrawn(column, tmp_path):
 	for number, (draw, what) in enumerate(draws):
 		shares = [area(draw(tmp_path / f'{number}-{k}.png', model, *what, window=(0, 0, 0.04, 0.04))) for k, model in enumerate((before, after))]
 		assert shares[1] < 0.75 * shares[0], (draw, what, shares)
-	whole, left = (picturesfields._View(model, None, None) for model in (before, after)) # each spans what it shows, with 1.5 % around
+	whole, left = (view.View(model, None, None) for model in (before, after)) # each spans what it shows, with 1.5 % around
 	assert whole.low[1] == pytest.approx(0, abs=1.7e-3) and left.low[1] == pytest.approx(0.02, abs=1e-3) and left.high[1] == pytest.approx(0.04, abs=1e-3)
-	assert [picturesfields._View(model, None, None).magnification for model in (before, after)] == [500, 1] # 2 % of 40 mm by 1.1 um
+	assert [view.View(model, None, None).magnification for model in (before, after)] == [500, 1] # 2 % of 40 mm by 1.1 um
 	export.writeStates(tmp_path, *(export.State(model, model.time) for model in (before, after)))
 	cells = [(tmp_path / f'{name}_000{number}.vtu').read_bytes().split(b'NumberOfCells="')[1].split(b'"')[0] for name in ('blocks', 'joints')
 			for number in (0, 1)]

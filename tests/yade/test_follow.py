@@ -72,7 +72,7 @@ def test_says_how_far_it_is_and_can_be_stopped(monkeypatch):
 		__call__ = lambda self, done: self.append((done / self.total, self.text()))
 
 	lines = []
-	monkeypatch.setattr(loading, 'Progress', Line)
+	monkeypatch.setattr(loading.path, 'Progress', Line)
 	path = loading.follow(model, 'top', 'a label', displacement=1e-5)
 	assert lines[0].label == 'a label' and len(lines[0]) == len(path['force'])
 	for (share, text), force, displacement, broken in zip(lines[0], path['force'], path['displacement'], path['broken']):

@@ -3,7 +3,7 @@
 import pytest
 
 from scenes import *
-from yadeblocks import loading
+from yadeblocks import loading, recording
 
 
 def top(m):
@@ -62,8 +62,7 @@ def test_servoSlowsWhatIsTooFast():
 			history.append((m.groupForce('top'), O.engines[-3].throttle if servo else 1))
 			stop(0, history[-1][0], m.pointStatus.any())
 
-		__builtins__['record'] = record # where PyRunner finds it
-		O.engines += [PyRunner(command='record()', iterPeriod=5)]
+		O.engines += [recording.runner('history', record, 5)]
 		O.run(100000, True)
 		forces, throttles = zip(*history)
 		return max(forces), min(throttles)

@@ -1,12 +1,12 @@
 # yade-blocks, GPL-2.0-or-later
 """Rigid blocks: platens and supports that move by YADE's own means."""
-import __main__
 import math
 
 import pytest
 
 from scenes import *
 from yade.minieigenHP import Vector3
+from yadeblocks.recording import runner
 
 g = 9.81
 held = 'xyzXYZ'
@@ -154,9 +154,7 @@ def test_energyBalance(free, damping):
 	"""Zones, joints, kinetic energy, damping and work from outside sum to zero; the work is force by way."""
 	rigidMaterials()
 	O.trackEnergy = True
-	look = PyRunner(command='look()', iterPeriod=1, initRun=True)
 	model, low, high = pressed(between(**firm), newton=dict(damping=damping), damping='local' if damping else 'none', alpha=0.3)
-	O.engines = O.engines[:4] + [look] + O.engines[4:]
 	model.smallStrain = True
 	trueMass = 7800 * 0.2 * 0.03 # a trapezium of (0.4 + 0.2)/2 x 0.1
 	model.gravity((0, -2 * g))
@@ -170,7 +168,7 @@ def test_energyBalance(free, damping):
 		ways = model.position[:, 1] - model.reference[:, 1]
 		weights.append(-2 * g * (model.mass @ ways + trueMass * (high.state.pos[1] - high.state.refPos[1])))
 
-	__main__.look = note
+	O.engines = O.engines[:4] + [runner('look', note, initRun=True)] + O.engines[4:]
 	O.run(600, True)
 	e = entries()
 	scale = e['blockZones'] + e['blockJoints']
@@ -301,8 +299,7 @@ def test_freeFallAndBounceKeepTheEnergy(tilt):
 		bottoms.append(model.position[model.firstNode[1]:, 1].min())
 		if min(bottoms) < 0 and bottoms[-1] > 1e-4: after.append(mechanical())
 
-	__main__.look = note
-	O.engines = O.engines + [PyRunner(command='look()', iterPeriod=20)]
+	O.engines = O.engines + [runner('look', note, 20)]
 	O.run(16000, True)
 	lowest = min(bottoms)
 	assert -1e-3 < lowest < 0 and len(after) > 20

@@ -3,6 +3,7 @@
 import pytest
 
 from scenes import *
+from yadeblocks import recording
 
 
 def broken(model):
@@ -42,11 +43,15 @@ def test_savedBeforeTheFirstStep(tmp_path):
 	assert differences(state(model()), expected) == []
 
 
+def keeper(folder):
+	"""A PyRunner that saves step 50."""
+	return recording.runner('keep', lambda: O.iter == 50 and O.save(str(folder / 'kept.yade')))
+
+
 def test_savedByAPyRunner(tmp_path):
 	"""Within a step, behind its motion: loaded it goes on with the same bits. (It moved once more than the one that was saved.)"""
-	__builtins__['keep'] = lambda: O.iter == 50 and O.save(str(tmp_path / 'kept.yade')) # where PyRunner finds it
 	whole = couplet(trackEnergy=True)
-	O.engines += [PyRunner(command='keep()', iterPeriod=1)]
+	O.engines += [keeper(tmp_path)]
 	O.run(120, True)
 	expected = state(whole)
 	O.load(str(tmp_path / 'kept.yade'))
@@ -59,10 +64,9 @@ def test_savedByAPyRunner(tmp_path):
 @pytest.mark.parametrize('place', [0, -1])
 def test_savedByAPyRunnerBeforeTheMotion(place, tmp_path):
 	"""First of all: the step is done again. Between forces and motion there is no way to go on."""
-	__builtins__['keep'] = lambda: O.iter == 50 and O.save(str(tmp_path / 'kept.yade'))
 	whole = couplet()
 	engines = O.engines
-	engines.insert(place, PyRunner(command='keep()', iterPeriod=1))
+	engines.insert(place, keeper(tmp_path))
 	O.engines = engines
 	if place < 0:
 		with pytest.raises(RuntimeError): # YADE's own, of the command; it shows what was wrong
@@ -73,7 +77,7 @@ def test_savedByAPyRunnerBeforeTheMotion(place, tmp_path):
 		return
 	O.run(100, True)
 	expected = state(whole)
-	__builtins__['keep'] = lambda: None
+	recording.known('keep', lambda: None)
 	O.load(str(tmp_path / 'kept.yade'))
 	assert O.iter == 50
 	O.run(100 - O.iter, True)
