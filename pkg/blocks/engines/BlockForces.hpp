@@ -13,9 +13,11 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC(BlockForces, BlockEngine,
-		"Unbalanced force of every grid point behind YADE's InteractionLoop, which has computed the joint stresses: loads, joint stresses times areas, zone stresses; summed in a fixed order, so that the same scene gives the same bits on any number of threads. "
+		"Unbalanced force of every grid point behind YADE's InteractionLoop, which has computed the joint stresses: loads, joint stresses times areas, "
+		"zone stresses; summed in a fixed order, so that the same scene gives the same bits on any number of threads. "
 		":yref:`BlockLoop` does without InteractionLoop. Force and torque on rigid blocks go to ``O.forces``, for NewtonIntegrator. "
-		"With ``O.trackEnergy``, ``O.energy`` gets 'blockFriction' and 'blockFracture', and with joints that soften 'blockModeI', 'blockModeII' and 'blockCap': what they dissipated by opening, by slip (without friction) and by crushing.");
+		"With ``O.trackEnergy``, ``O.energy`` gets 'blockFriction' and 'blockFracture', and with joints that soften 'blockModeI', 'blockModeII' and "
+		"'blockCap': what they dissipated by opening, by slip (without friction) and by crushing.");
 	// clang-format on
 
 protected:

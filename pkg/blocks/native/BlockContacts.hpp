@@ -28,8 +28,10 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(BlockContacts, BlockEngine,
-		"General contact for lists of engines with YADE's InteractionLoop (:yref:`BlockLoop` has it as ``contact=True``): turns broken joints into contacts that may slide along edges and past corners, part and meet again (with the residual properties), and finds new ones. "
-		"Stands first. It needs no collider: an InsertionSortCollider for blocks alone is put to rest. A scene whose blocks keep their neighbours leaves it out.",
+		"General contact for lists of engines with YADE's InteractionLoop (:yref:`BlockLoop` has it as ``contact=True``): turns broken joints into "
+		"contacts that may slide along edges and past corners, part and meet again (with the residual properties), and finds new ones. "
+		"Stands first. It needs no collider: an InsertionSortCollider for blocks alone is put to rest. A scene whose blocks keep their neighbours "
+		"leaves it out.",
 		((long, colliderRuns, 0, Attr::readonly, "How often neighbours were looked for."))
 	);
 	// clang-format on

@@ -14,7 +14,8 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC(Ig2_Block_Block_BlockGeom, IGeomFunctor,
-		"Opening and slip at the contact points of two bonded :yref:`blocks<Block>`, in a frame that turns with their edges (UDEC's point contacts; paper, section 2.2); with :yref:`BlockContacts`, depth and overlap of the edges of blocks that are not bonded, or no more.");
+		"Opening and slip at the contact points of two bonded :yref:`blocks<Block>`, in a frame that turns with their edges (UDEC's point contacts; "
+		"paper, section 2.2); with :yref:`BlockContacts`, depth and overlap of the edges of blocks that are not bonded, or no more.");
 	// clang-format on
 	FUNCTOR2D(Block, Block);
 	DEFINE_FUNCTOR_ORDER_2D(Block, Block);

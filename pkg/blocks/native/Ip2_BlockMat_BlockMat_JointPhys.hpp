@@ -18,12 +18,14 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Ip2_BlockMat_BlockMat_JointPhys, IPhysFunctor,
-		"Joint properties for every pair of materials: ``Ip2_BlockMat_BlockMat_JointPhys(joints=[JointMat(material1='unit', material2='mortar', ...), ...])``. "
+		"Joint properties for every pair of materials: ``Ip2_BlockMat_BlockMat_JointPhys(joints=[JointMat(material1='unit', material2='mortar', ...), "
+		"...])``. "
 		"A pair of touching materials without a JointMat is an error that names it.",
 		((vector<shared_ptr<JointMat>>, jointList, , Attr::hidden, "One for each pair of materials."))
 		,
 		/*ctor*/,
-		.add_property("joints", &Ip2_BlockMat_BlockMat_JointPhys::getJoints, &Ip2_BlockMat_BlockMat_JointPhys::setJoints, "List of :yref:`JointMat`, one for each pair of materials that touch.")
+		.add_property("joints", &Ip2_BlockMat_BlockMat_JointPhys::getJoints, &Ip2_BlockMat_BlockMat_JointPhys::setJoints, "List of :yref:`JointMat`, "
+			"one for each pair of materials that touch.")
 	);
 	// clang-format on
 	FUNCTOR2D(BlockMat, BlockMat);

@@ -13,7 +13,8 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC(Law2_BlockGeom_JointPhys_MohrCoulomb, LawFunctor,
-		"Brittle Mohr-Coulomb joint with tension cut-off (paper, section 2.2, Eqs. 1-3): elastic until sigma > tension or |tau| > cohesion - sigma tan(friction angle) "
+		"Brittle Mohr-Coulomb joint with tension cut-off (paper, section 2.2, Eqs. 1-3): elastic until sigma > tension or |tau| > cohesion - sigma "
+		"tan(friction angle) "
 		"(tension positive); then the residual strengths hold. Stresses stay at the contact points; :yref:`BlockForces` gathers them.");
 	// clang-format on
 	FUNCTOR2D(BlockGeom, JointPhys);

@@ -18,7 +18,8 @@ public:
 		((int, pair, -1, Attr::readonly, "Index of the pair of bonded blocks in the model; -1: never bonded."))
 		((int, contact, -1, Attr::readonly, "Index of the pair's free contact in the model; -1: none (see :yref:`BlockContacts`).")),
 		createIndex();,
-		.add_property("ends", &BlockGeom::ends, "Free contact, edge by edge, two ends each: list of dictionaries with position [m], normal (out of the first block), depth [m], sigma, tau [Pa], area [m2].")
+		.add_property("ends", &BlockGeom::ends, "Free contact, edge by edge, two ends each: list of dictionaries with position [m], normal (out of the "
+			"first block), depth [m], sigma, tau [Pa], area [m2].")
 		.add_property("points", &BlockGeom::points, "First and one-past-last contact point of the pair.")
 		.add_property("positions", &BlockGeom::positions, "Contact points, midway between the blocks [m].")
 		.add_property("normals", &BlockGeom::normals, "Unit normals at the contact points, out of the first block.")

@@ -94,15 +94,21 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(BlockModel, Serializable,
-		"All blocks of a scene in flat arrays: grid points, zones, boundary edges, joints. Build it once (materials, :yref:`addVoronoi<BlockModel.addVoronoi>`, "
-		":yref:`addRegion<BlockModel.addRegion>`, :yref:`addRigid<BlockModel.addRigid>`, :yref:`bond<BlockModel.bond>`, boundary conditions, :yref:`insert<BlockModel.insert>`), then let the engines work on it. "
-		"SI units, tension positive. Once inserted, arrays are numpy views of the model's own memory: reading costs no copy; displacement and velocity may be written.",
+		"All blocks of a scene in flat arrays: grid points, zones, boundary edges, joints. Build it once (materials, "
+		":yref:`addVoronoi<BlockModel.addVoronoi>`, "
+		":yref:`addRegion<BlockModel.addRegion>`, :yref:`addRigid<BlockModel.addRigid>`, :yref:`bond<BlockModel.bond>`, boundary conditions, "
+		":yref:`insert<BlockModel.insert>`), then let the engines work on it. "
+		"SI units, tension positive. Once inserted, arrays are numpy views of the model's own memory: reading costs no copy; displacement and velocity "
+		"may be written.",
 		((Real, thickness, 1, Attr::triggerPostLoad, "Out-of-plane thickness [m]; to be set before the first block."))
 		((bool, planeStress, false, Attr::triggerPostLoad, "Plane stress instead of plane strain."))
-		((bool, smallStrain, false, Attr::triggerPostLoad, "Small-strain zones: cheaper, only for scenes in which no block turns by more than about 1e-3."))
-		((vector<string>, materialLabels, , Attr::readonly, "Labels of the materials, in the order of :yref:`blockMaterial<BlockModel.blockMaterial>`."))
+		((bool, smallStrain, false, Attr::triggerPostLoad, "Small-strain zones: cheaper, only for scenes in which no block turns by more than about "
+			"1e-3."))
+		((vector<string>, materialLabels, , Attr::readonly, "Labels of the materials, in the order of "
+			":yref:`blockMaterial<BlockModel.blockMaterial>`."))
 		((int, firstBody, -1, Attr::readonly, "Body id of block 0; block i is body firstBody + i."))
-		((bool, showsInteractions, true, Attr::readonly, "Whether pairs and contacts are shown in ``O.interactions``; see :yref:`insert<BlockModel.insert>`."))
+		((bool, showsInteractions, true, Attr::readonly, "Whether pairs and contacts are shown in ``O.interactions``; see "
+			":yref:`insert<BlockModel.insert>`."))
 		((vector<shared_ptr<JointMat>>, jointMats, , Attr::hidden, "What bond() was given: properties of the joints between two materials."))
 		((blocks::BlockAssembly, assembly, , Attr::hidden, "The arrays."))
 		,

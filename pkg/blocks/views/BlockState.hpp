@@ -14,7 +14,9 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(BlockState, State,
-		"State of the body of a deformable block, which moves by its grid points: ``pos`` is the centroid of its mass as it is now and cannot be set, nor can velocities and blockedDOFs (see :yref:`BlockModel.drive` and :yref:`BlockModel.displacement`). YADE's C++ engines see the centroid of the last look at the stability.",
+		"State of the body of a deformable block, which moves by its grid points: ``pos`` is the centroid of its mass as it is now and cannot be set, "
+		"nor can velocities and blockedDOFs (see :yref:`BlockModel.drive` and :yref:`BlockModel.displacement`). YADE's C++ engines see the centroid of "
+		"the last look at the stability.",
 		((shared_ptr<BlockModel>, model, , Attr::readonly, "The model that holds the block."))
 		((int, index, -1, Attr::readonly, "Index of the block in the model.")),
 		createIndex();,

@@ -21,11 +21,15 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Gl1_Block, GlShapeFunctor,
-		"Draws :yref:`Block` in YADE's window (``yade.qt.View``): zones, outlines and broken joints, where they are now. yadeblocks.window opens a window that "
+		"Draws :yref:`Block` in YADE's window (``yade.qt.View``): zones, outlines and broken joints, where they are now. yadeblocks.window opens a "
+		"window that "
 		"looks on the plane of the blocks. Settings belong to the class, ``Gl1_Block.colour = 'sigma1'``, and to all blocks of the scene. "
-		"colour: what zones are coloured by, 'material' (or the colour of a body's shape), 'displacement' [m], 'sigma1', 'sigma2', 'sxx', 'syy', 'sxy' [Pa] or "
-		"'damage', the share of a block's joints that is broken [1]; zones: whether the zones' edges are drawn; cracks: whether broken joints are, red, at both "
-		"faces; range: values of the ends of the colour scale, equal ones for those of the model as it is; shownRange: the values that were drawn last.",
+		"colour: what zones are coloured by, 'material' (or the colour of a body's shape), 'displacement' [m], 'sigma1', 'sigma2', 'sxx', 'syy', 'sxy' "
+		"[Pa] or "
+		"'damage', the share of a block's joints that is broken [1]; zones: whether the zones' edges are drawn; cracks: whether broken joints are, "
+		"red, at both "
+		"faces; range: values of the ends of the colour scale, equal ones for those of the model as it is; shownRange: the values that were drawn "
+		"last.",
 		/*attrs*/,
 		/*ctor*/,
 		.add_static_property("colour", &Gl1_Block::getColour, &Gl1_Block::setColour)

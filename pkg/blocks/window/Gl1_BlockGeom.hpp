@@ -31,7 +31,8 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Gl1_JointPhys, GlIPhysFunctor,
 		"Draws normal stresses at contact points in YADE's window (``yade.qt.Renderer().intrPhys = True``) as bars across the joint: compression blue, "
-		"tension red. ``Gl1_JointPhys.scale``, of the class: length of a bar by the stress [m/Pa]; 0: the largest stress of the model as it is gets a bar "
+		"tension red. ``Gl1_JointPhys.scale``, of the class: length of a bar by the stress [m/Pa]; 0: the largest stress of the model as it is gets a "
+		"bar "
 		"twice as long as the mean joint.",
 		/*attrs*/,
 		/*ctor*/,
