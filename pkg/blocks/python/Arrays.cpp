@@ -55,6 +55,12 @@ namespace {
 		return out;
 	}
 
+	/// An array as a property.
+	template <class View> void column(PythonModel& c, const char* name, const View& view, const char* doc)
+	{
+		c.add_property(name, py::make_function(+view), doc);
+	}
+
 	/// What touches without a bond, as of the last step.
 	py::dict freeContacts(const py::object& self)
 	{
@@ -216,14 +222,15 @@ namespace {
 void defineArrays(PythonModel& c)
 {
 	using py::arg;
-	// clang-format off
-	c.def("requireSound", &requireSound, "Raises RuntimeError where the motion of a grid point is not a number or a zone is inside out. Runs are looked at "
-		"by themselves, see BlockMotion.watchPeriod.")
+	c.def("requireSound",
+	      &requireSound,
+	      "Raises RuntimeError where the motion of a grid point is not a number or a zone is inside out. Runs are looked at "
+	      "by themselves, see BlockMotion.watchPeriod.")
 		.def("unrest",
 	             &unrest,
 	             (arg("floor") = 0.),
 	             "How far the scene is from rest [-]: unbalanced forces by the largest sum of loads, of forces of groups and twice those of contacts, or "
-		"kinetic energy by that of zones "
+	             "kinetic energy by that of zones "
 	             "and joints, if this is more. Infinite while a group is within its ramp. floor: least sum of forces that counts [N].")
 		.def("unbalancedRatio",
 	             &unbalancedRatio,
@@ -234,7 +241,7 @@ void defineArrays(PythonModel& c)
 		.def("freeContacts",
 	             &freeContacts,
 	             "Edges that touch without a bond, as of the last step, as a dictionary of copies, one entry a pair of edges: blocks, the two (n, 2); "
-		"nodes, the "
+	             "nodes, the "
 	             "grid points a0, a1 of the first block's edge and b0, b1 of the second's (n, 4); force, on the first block (n, 2) [N]. Empty without "
 	             "general contact.")
 		.def("zoneStress",
@@ -251,46 +258,146 @@ void defineArrays(PythonModel& c)
 	             "points, counter-clockwise, shape (triangles, 3). A copy. "
 	             "Errors: ValueError for a block that is not there.")
 		.def("contactPositions", py::make_function(&contactPositions), "Positions of the contact points, shape (contact points, 2) [m]. A copy.")
-		.def("fingerprint", &fingerprint, "16 hexadecimal digits that are the same only for the same bits of the state: motion, joints, contacts, "
-			"groups, accounts.")
+		.def("fingerprint",
+	             &fingerprint,
+	             "16 hexadecimal digits that are the same only for the same bits of the state: motion, joints, contacts, "
+	             "groups, accounts.")
 		.add_property("blockCount", &blockCount, "Number of blocks.")
 		.add_property("nodeCount", &nodeCount, "Number of grid points.")
 		.add_property("zoneCount", &zoneCount, "Number of zones.")
 		.add_property("contactCount", &contactCount, "Number of contact points.")
-		.add_property("displacement", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).state.displacement, 2, Use::state); }), "Displacements of the grid points since the reference positions, shape (grid points, 2) [m].")
-		.add_property("reference", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).mesh.reference, 2, Use::result); }), "Grid points' positions without stress, shape (grid points, 2) [m].")
-		.add_property("velocity", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).state.velocity, 2, Use::state); }), "Grid points' velocities half a step ago, shape (grid points, 2) [m/s].")
-		.add_property("force", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).forces.nodal, 2, Use::result); }), "Grid points' unbalanced forces, shape (grid points, 2) [N].")
-		.add_property("mass", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).mesh.mass, 1, Use::result); }), "Grid points' true masses; 0 on rigid blocks, whose body has it all [kg].")
-		.add_property("inertia", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).state.inertia, 1, Use::result); }), "Grid points' masses as they resist motion, scaled if BlockMotion scales them [kg].")
-		.add_property("zoneNodes", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).mesh.zoneNodes, 3, Use::result); }), "Grid points of every zone, counter-clockwise, shape (zones, 3).")
-		.add_property("zoneVolume", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).mesh.zoneVolume, 1, Use::result); }), "Volumes of the zones [m3].")
-		.add_property("firstNode", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).mesh.firstNode, 1, Use::result); }), "First grid point of every block, and their number at the end.")
-		.add_property("firstZone", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).mesh.firstZone, 1, Use::result); }), "First zone of every block, and their number at the end.")
-		.add_property("firstEdge", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).mesh.firstEdge, 1, Use::result); }), "First boundary edge of every block, and their number at the end.")
-		.add_property("blockMaterial", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).mesh.blockMaterial, 1, Use::result); }), "Material of every block, an index into materialLabels.")
-		.add_property("edgeNodes", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).mesh.edgeNodes, 2, Use::result); }), "Grid points of the boundary edges, material on the left, shape (edges, 2).")
-		.add_property("segmentNodes", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).joints.segments, 4, Use::result, offsetof(blocks::Segment, node)); }), "Edge a1, b1 of the first and a2, b2 of the second block of every joint, shape (segments, 4).")
-		.add_property("segmentBlocks", py::make_function(+[](py::object self) -> py::object { return view<int>(self, arrays(self).joints.segments, 2, Use::result, offsetof(blocks::Segment, block)); }), "The two blocks of every joint, shape (segments, 2).")
-		.add_property("segmentParameters", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).joints.segments, 4, Use::result, offsetof(blocks::Segment, s1)); }), "Where the two contact points are along the first edge, then along the second (0 at a, 1 at b), shape (segments, 4).")
-		.add_property("segmentArea", py::make_function(+[](py::object self) -> py::object { return view<Real>(self, arrays(self).joints.columns.area, 1, Use::result); }), "Area of each of the two contact points of every joint; 0 once it has broken and its edges are a free contact, which has all that they carry [m2].")
-		.add_property("position", py::make_function(&position), "Grid points' positions, shape (grid points, 2) [m]. A copy that cannot be written: "
+		.add_property(
+			"position",
+			py::make_function(&position),
+			"Grid points' positions, shape (grid points, 2) [m]. A copy that cannot be written: "
 			"write to displacement.")
 		.add_property("normal", py::make_function(&normals), "Unit normals of the joints, out of the first block, shape (segments, 2). A copy.")
 		.add_property("pointOpening", py::make_function(&motion<&blocks::State::opening>), "Openings of the contact points, two a joint [m].")
 		.add_property("pointSlip", py::make_function(&motion<&blocks::State::slip>), "Slips of the contact points [m].")
-		.add_property("pointSigma", py::make_function(+[](py::object self) -> py::object { return pointStress(self, &blocks::PointStresses::sigma, arrays(self).state.sigma); }), "Normal stresses of the contact points, tension positive [Pa]; where a joint has become a free contact, those of the edges that took its place (then a copy).")
-		.add_property("pointTau", py::make_function(+[](py::object self) -> py::object { return pointStress(self, &blocks::PointStresses::tau, arrays(self).state.tau); }), "Shear stresses of the contact points, as pointSigma [Pa].")
-		.add_property("pointStatus", py::make_function(+[](py::object self) -> py::object { return view<std::uint8_t>(self, arrays(self).state.status, 1, Use::result); }), "0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded, 4 softening: beyond its peak. A joint that softens counts as broken from a damage of 0.9 on.")
-		.add_property("pointDamage", py::make_function(&damages), "Damage of the contact points: 0 whole or never bonded, 1 nothing but residual "
+		.add_property(
+			"pointDamage",
+			py::make_function(&damages),
+			"Damage of the contact points: 0 whole or never bonded, 1 nothing but residual "
 			"strength is left; joints that do not soften have no other values. A copy.")
-		.add_property("lawColumns", &lawColumns, "Columns of a joint law of one's own (:yref:`BlockLaw`, :yref:`NumpyLaw`): name -> one number a "
+		.add_property(
+			"lawColumns",
+			&lawColumns,
+			"Columns of a joint law of one's own (:yref:`BlockLaw`, :yref:`NumpyLaw`): name -> one number a "
 			"contact point, two a joint, in the unit that the law gives them. Empty until such a law has worked. Copies.")
-		.def("dropLawColumns", &dropLawColumns, "Forgets the columns of a joint law of one's own, so that a law with other ones can follow; its "
-			"columns are 0 again.")
-		.add_property("snappedBack", &snappedBack, "How often a contact point of a joint that softens has snapped back: its pressure was too high for "
+		.def("dropLawColumns",
+	             &dropLawColumns,
+	             "Forgets the columns of a joint law of one's own, so that a law with other ones can follow; its "
+	             "columns are 0 again.")
+		.add_property(
+			"snappedBack",
+			&snappedBack,
+			"How often a contact point of a joint that softens has snapped back: its pressure was too high for "
 			"the stress to follow the softening curve, and it dropped to it.");
-	// clang-format on
+
+	// ---- the arrays themselves
+	column(
+		c,
+		"displacement",
+		[](const py::object& self) { return view<Real>(self, arrays(self).state.displacement, 2, Use::state); },
+		"Displacements of the grid points since the reference positions, shape (grid points, 2) [m].");
+	column(
+		c,
+		"reference",
+		[](const py::object& self) { return view<Real>(self, arrays(self).mesh.reference, 2, Use::result); },
+		"Grid points' positions without stress, shape (grid points, 2) [m].");
+	column(
+		c,
+		"velocity",
+		[](const py::object& self) { return view<Real>(self, arrays(self).state.velocity, 2, Use::state); },
+		"Grid points' velocities half a step ago, shape (grid points, 2) [m/s].");
+	column(
+		c,
+		"force",
+		[](const py::object& self) { return view<Real>(self, arrays(self).forces.nodal, 2, Use::result); },
+		"Grid points' unbalanced forces, shape (grid points, 2) [N].");
+	column(
+		c,
+		"mass",
+		[](const py::object& self) { return view<Real>(self, arrays(self).mesh.mass, 1, Use::result); },
+		"Grid points' true masses; 0 on rigid blocks, whose body has it all [kg].");
+	column(
+		c,
+		"inertia",
+		[](const py::object& self) { return view<Real>(self, arrays(self).state.inertia, 1, Use::result); },
+		"Grid points' masses as they resist motion, scaled if BlockMotion scales them [kg].");
+	column(
+		c,
+		"zoneNodes",
+		[](const py::object& self) { return view<int>(self, arrays(self).mesh.zoneNodes, 3, Use::result); },
+		"Grid points of every zone, counter-clockwise, shape (zones, 3).");
+	column(
+		c,
+		"zoneVolume",
+		[](const py::object& self) { return view<Real>(self, arrays(self).mesh.zoneVolume, 1, Use::result); },
+		"Volumes of the zones [m3].");
+	column(
+		c,
+		"firstNode",
+		[](const py::object& self) { return view<int>(self, arrays(self).mesh.firstNode, 1, Use::result); },
+		"First grid point of every block, and their number at the end.");
+	column(
+		c,
+		"firstZone",
+		[](const py::object& self) { return view<int>(self, arrays(self).mesh.firstZone, 1, Use::result); },
+		"First zone of every block, and their number at the end.");
+	column(
+		c,
+		"firstEdge",
+		[](const py::object& self) { return view<int>(self, arrays(self).mesh.firstEdge, 1, Use::result); },
+		"First boundary edge of every block, and their number at the end.");
+	column(
+		c,
+		"blockMaterial",
+		[](const py::object& self) { return view<int>(self, arrays(self).mesh.blockMaterial, 1, Use::result); },
+		"Material of every block, an index into materialLabels.");
+	column(
+		c,
+		"edgeNodes",
+		[](const py::object& self) { return view<int>(self, arrays(self).mesh.edgeNodes, 2, Use::result); },
+		"Grid points of the boundary edges, material on the left, shape (edges, 2).");
+	column(
+		c,
+		"segmentNodes",
+		[](const py::object& self) { return view<int>(self, arrays(self).joints.segments, 4, Use::result, offsetof(blocks::Segment, node)); },
+		"Edge a1, b1 of the first and a2, b2 of the second block of every joint, shape (segments, 4).");
+	column(
+		c,
+		"segmentBlocks",
+		[](const py::object& self) { return view<int>(self, arrays(self).joints.segments, 2, Use::result, offsetof(blocks::Segment, block)); },
+		"The two blocks of every joint, shape (segments, 2).");
+	column(
+		c,
+		"segmentParameters",
+		[](const py::object& self) { return view<Real>(self, arrays(self).joints.segments, 4, Use::result, offsetof(blocks::Segment, s1)); },
+		"Where the two contact points are along the first edge, then along the second (0 at a, 1 at b), shape (segments, 4).");
+	column(
+		c,
+		"segmentArea",
+		[](const py::object& self) { return view<Real>(self, arrays(self).joints.columns.area, 1, Use::result); },
+		"Area of each of the two contact points of every joint; 0 once it has broken and its edges are a free contact, which has all that they carry "
+	        "[m2].");
+	column(
+		c,
+		"pointSigma",
+		[](const py::object& self) { return pointStress(self, &blocks::PointStresses::sigma, arrays(self).state.sigma); },
+		"Normal stresses of the contact points, tension positive [Pa]; where a joint has become a free contact, those of the edges that took its place "
+	        "(then a copy).");
+	column(
+		c,
+		"pointTau",
+		[](const py::object& self) { return pointStress(self, &blocks::PointStresses::tau, arrays(self).state.tau); },
+		"Shear stresses of the contact points, as pointSigma [Pa].");
+	column(
+		c,
+		"pointStatus",
+		[](const py::object& self) { return view<std::uint8_t>(self, arrays(self).state.status, 1, Use::result); },
+		"0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded, 4 softening: beyond its peak. A joint that softens counts as broken from a "
+	        "damage of 0.9 on.");
 }
 
 } // namespace yade
