@@ -1,5 +1,5 @@
 // yade-blocks, GPL-2.0-or-later
-#include <blocks/kernel/geometry/Polygon.hpp>
+#include <blocks/kernel/geometry/PolygonRules.hpp>
 #include <blocks/kernel/model/JointChoice.hpp>
 #include <blocks/kernel/model/StrengthField.hpp>
 #include <blocks/kernel/step/Joints.hpp>
