@@ -17,13 +17,13 @@ void BlockForces::newScene()
 {
 	frictionId = fractureId = modeIId = modeIIId = capId = -1;
 	looked = saidSnapped = told = false;
-	known.clear();
+	lastStatus.clear();
 }
 
 void BlockForces::computeForces(BlockModel& model, int threads)
 {
 	blocks::BlockAssembly& a = model.assembly;
-	if (a.contacts.wanted) blocks::noteBroken(a, known); // a Law2 of somebody else's does not say which
+	if (a.contacts.wanted) blocks::noteBroken(a, lastStatus); // a Law2 of somebody else's does not say which
 	blocks::sumForces(a, scene->trackEnergy, threads);
 	blocks::JointHistory& before = a.forces.before; // kept by the assembly, which may be put back to an earlier state
 	if (!scene->trackEnergy) return before.status.clear();

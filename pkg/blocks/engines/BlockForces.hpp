@@ -29,7 +29,7 @@ protected:
 private:
 	void lookAtEngines(BlockModel&, int threads);
 
-	vector<blocks::Joint> known; ///< status of contact points at the last step, where an InteractionLoop's law may have broken some
+	vector<blocks::Joint> lastStatus; ///< of contact points at the last step, where an InteractionLoop's law may have broken some
 
 	int  frictionId = -1, fractureId = -1, modeIId = -1, modeIIId = -1, capId = -1;
 	bool saidSnapped = false;
