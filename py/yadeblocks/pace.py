@@ -9,7 +9,7 @@ import sys
 
 import numpy as np
 
-from ._calls import door
+from ._door import door
 from .readings.materials import ofMaterials
 
 kineticShare, reactionsApart = 0.05, 0.1 # what is plainly too fast: kinetic by strain energy, reaction against load
