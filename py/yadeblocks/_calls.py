@@ -2,13 +2,14 @@
 """What is said where our classes are called with a wrong type, a word that is not known or too few arguments: a sentence with name, rule and value, in
 place of Boost's list of C++ signatures. Attributes that do not exist are refused, which Boost would add in silence.
 
-Nothing is looked at unless a call has failed already: calls that are right cost nothing but one function of Python's. `door` does the same for functions
-in Python, which would fail somewhere within; it looks at every call, and so is for doors alone. Kinds of arguments stand in _kinds."""
+Nothing is looked at unless a call has failed already: calls that are right cost nothing but one function of Python's. Functions in
+Python have a door (_door)."""
 import functools
 import inspect
 import re
 
-from ._kinds import fits, wordsOf, wrong
+from ._arguments import Shown, errorOf, signature
+from ._kinds import fits, wordsOf
 from ._words import closest
 
 _ours = re.compile(r"(Block\w*|JointMat|JointPhys|NumpyLaw|(Ig2|Ip2|Law2|Bo1)_Block\w*)$")
@@ -25,36 +26,6 @@ def install(wrapper):
 		kind.__setattr__, kind.__getattr__ = _set, _absent
 
 
-def door(*numbers, **kinds):
-	"""For public functions and __init__: unknown keywords, what is left out or given twice, and arguments of a wrong kind (None is right where that is the
-	default): a sentence, before anything is done. numbers: names of arguments that are finite numbers; kinds: kinds of others by name, see _kinds. What
-	is known is the function's `door`: name, kind and default of each argument.
-
-	TypeError; ValueError for numbers that are not finite, or not whole, where they must be."""
-	def wrap(function):
-		name = function.__qualname__.removesuffix(".__init__")
-		own = [p for p in inspect.signature(function).parameters.values() if p.name != "self"]
-		of = {**dict.fromkeys(numbers, "finite"), **kinds}
-		parameters = [(p.name, of.get(p.name, ""), p.default) for p in own if p.kind == p.POSITIONAL_OR_KEYWORD]
-		missing = set(of) - {word for word, _, _ in parameters}
-		if missing: raise ValueError(f"{name} has no arguments {missing}")
-		others = any(p.kind == p.VAR_KEYWORD for p in own)
-		method = len(own) < len(inspect.signature(function).parameters)
-		many = any(p.kind == p.VAR_POSITIONAL for p in own)
-
-		@functools.wraps(function)
-		def call(*given, **named):
-			known = {word: value for word, value in named.items() if not others or word in {word for word, _, _ in parameters}}
-			said = _said(name, parameters, given[method:method + len(parameters)] if many else given[method:], known)
-			if said: raise said
-			return function(*given, **named)
-
-		call.door = parameters
-		return call
-
-	return wrap
-
-
 def _explained(kind, name, method):
 	parameters = _parameters(name, method.__doc__ or "")
 
@@ -64,13 +35,13 @@ def _explained(kind, name, method):
 			return method(self, *given, **named)
 		except TypeError as error:
 			if type(error).__name__ != "ArgumentError": raise
-			said = _said(f"{kind.__name__}.{name}", parameters, given, named)
+			said = errorOf(f"{kind.__name__}.{name}", parameters, given, named)
 		if said is None and parameters is not None: # numpy's whole numbers and single precision, which Boost does not know
 			try:
 				return method(self, *map(_plain, given), **{word: _plain(value) for word, value in named.items()})
 			except TypeError as error:
 				if type(error).__name__ != "ArgumentError": raise
-		raise said or TypeError(f"{kind.__name__}.{name} was called with what it does not take; it is {kind.__name__}.{name}{_signature(parameters)}")
+		raise said or TypeError(f"{kind.__name__}.{name} was called with what it does not take; it is {kind.__name__}.{name}{signature(parameters)}")
 
 	del call.__wrapped__ # inspect would ask Boost, which has no answer
 	call.__name__, call.__qualname__ = name, f"{kind.__name__}.{name}"
@@ -87,35 +58,7 @@ def _parameters(name, doc):
 	head = re.match(rf"\s*{name}\( \(\w+\)arg1(.*?)\]*\) -> [\w ]+ ?:?\n", doc, re.S)
 	if not head: return None
 	found = re.findall(r"\((\w+)\)(\w+)(?:=((?:'[^']*'|[^\[\]]|\[\])*?))?(?=,? ?\[,|, \(|\s*$)", head.group(1))
-	return [(word, kind, _Shown(default) if default else inspect.Parameter.empty) for kind, word, default in found]
-
-
-class _Shown(str):
-	"""A default as Boost shows it."""
-	def __repr__(self):
-		return str(self).strip()
-
-
-def _signature(parameters):
-	return "(" + ", ".join(word if default is inspect.Parameter.empty else f"{word}={default!r}" for word, _, default in parameters or ()) + ")"
-
-
-def _said(name, parameters, given, named):
-	"""The error to raise for what is wrong with a call, or None."""
-	if parameters is None: return None
-	words = [word for word, _, _ in parameters]
-	if len(given) > len(words): return TypeError(f"{name} takes {len(words)} arguments at most, got {len(given)}: {name}{_signature(parameters)}")
-	for word in named:
-		if word not in words: return TypeError(f"{name} has no argument {word}{closest(word, words)}; known: {' '.join(words) or 'none'}")
-		if word in words[:len(given)]: return TypeError(f"{name}.{word} must be given once, got {given[words.index(word)]!r} and {named[word]!r}")
-	values = {**dict(zip(words, given)), **named}
-	missing = [word for word, _, default in parameters if default is inspect.Parameter.empty and word not in values]
-	if missing: return TypeError(f"{name} needs {' and '.join(missing)}: {name}{_signature(parameters)}")
-	for word, kind, default in parameters:
-		if word not in values or (values[word] is None and default is None): continue
-		said = wrong(f"{name}.{word}", values[word], kind)
-		if said: return said
-	return None
+	return [(word, kind, Shown(default) if default else inspect.Parameter.empty) for kind, word, default in found]
 
 
 def _plain(value):

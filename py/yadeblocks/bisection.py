@@ -1,6 +1,6 @@
 # yade-blocks, GPL-2.0-or-later
 """Where something ceases to hold."""
-from ._calls import door
+from ._door import door
 
 
 @door('low', 'high', 'precision', holds='function')

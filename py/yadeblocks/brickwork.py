@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from ._calls import door
+from ._door import door
 from ._kinds import fits, shown
 from .layout import Layout
 from .specimen import rectangle

@@ -10,7 +10,7 @@ or, with YADE's own InteractionLoop and the same bits, at two to three times the
 	O.engines = engineList([JointMat(material1='rock', material2='rock', kn=2e12, ks=1e12, cohesion=10e6, tension=5e6, frictionAngle=0.6)], alpha=0.3)
 """
 
-from ._calls import door
+from ._door import door
 
 
 @door(contact='flag', servo='mapping', newton='mapping')

@@ -10,7 +10,7 @@
 Every call is one of BlockModel's (`drive`, `groupForce`, ...), and these go on working with the name."""
 import numpy as np
 
-from . import _calls
+from ._door import door
 
 
 class Group:
@@ -122,4 +122,4 @@ def group(self, name, nodes=None):
 def install(wrapper):
 	"""BlockModel.group."""
 	group.__qualname__ = "BlockModel.group"
-	wrapper.BlockModel.group = _calls.door()(group)
+	wrapper.BlockModel.group = door()(group)

@@ -11,7 +11,7 @@ from collections import namedtuple
 
 import numpy as np
 
-from ._calls import door
+from ._door import door
 from ._kinds import shown, wrong
 from .layout import Layout
 from .plane import left, onGrid, unit

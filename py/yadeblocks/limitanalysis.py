@@ -13,7 +13,7 @@ from collections import namedtuple
 
 import numpy as np
 
-from ._calls import door
+from ._door import door
 from ._kinds import shown
 from .plane import cross, left
 from .readings.blocks import areasAndCentroids, blockOfNodes

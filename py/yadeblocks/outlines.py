@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ._calls import door
+from ._door import door
 from .polygons import counterClockwise
 
 #: name: of the layer (DXF), the id or label (SVG) or the third column (CSV), '' without one; ring: (n, 2) array, counter-clockwise [m].

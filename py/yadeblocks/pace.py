@@ -9,31 +9,11 @@ import sys
 
 import numpy as np
 
-from ._calls import door
-from .readings.materials import ofMaterials
+from ._door import door
+from .readings.energy import strainEnergy
 
 kineticShare, reactionsApart = 0.05, 0.1 # what is plainly too fast: kinetic by strain energy, reaction against load
 _least = 10 # looks that are taken together: single ones tell of waves
-
-
-def strainEnergy(model, known={}):
-	"""Elastic energy of zones and joints that are no free contacts, from their stresses [J]; YADE must run. Costs no O.trackEnergy.
-
-	known: a dictionary that keeps moduli and stiffnesses from one call to the next of the same model."""
-	if "E" not in known: known.update(_stiffnesses(model))
-	sxx, syy, sxy = np.asarray(model.zoneStress()).T
-	young, nu = known["E"], known["nu"]
-	if model.planeStress: zones = (sxx**2 + syy**2 - 2 * nu * sxx * syy + 2 * (1 + nu) * sxy**2) / (2 * young)
-	else: zones = (1 + nu) * ((1 - nu) * (sxx**2 + syy**2) - 2 * nu * sxx * syy + 2 * sxy**2) / (2 * young)
-	joints = np.repeat(model.segmentArea, 2) * (np.asarray(model.pointSigma)**2 / known["kn"] + np.asarray(model.pointTau)**2 / known["ks"]) / 2
-	return float(zones @ model.zoneVolume) + float(joints.sum())
-
-
-def _stiffnesses(model):
-	zones = np.repeat(model.blockMaterial, np.diff(model.firstZone))
-	of = lambda name: ofMaterials(model, name)[zones]
-	properties = model.jointProperties
-	return dict(E=of("young"), nu=of("poisson"), kn=np.repeat(properties["kn"], 2), ks=np.repeat(properties["ks"], 2))
 
 
 class Pace:

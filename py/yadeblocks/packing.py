@@ -6,7 +6,7 @@
 """
 import numpy as np
 
-from ._calls import door
+from ._door import door
 
 solidity = 0.86 # share of the area that discs may take; more than random close packing, so that some have to go
 

@@ -8,7 +8,7 @@
 	print(platen.force, platen.displacement, platen.throttle)"""
 import numpy as np
 
-from ._calls import door
+from ._door import door
 from .recording import runner
 
 

@@ -11,7 +11,7 @@ from collections import namedtuple
 
 import numpy as np
 
-from ._calls import door
+from ._door import door
 
 _known = {} # by name: what PyRunner's commands refer to, which are text
 

@@ -8,7 +8,7 @@
 Needs shapely (Debian's python3-shapely)."""
 import numpy as np
 
-from ._calls import door
+from ._door import door
 from .layout import Layout
 from .polygons import fromBelow, holesOf, joinSmall, needShapely, outlineOf, region
 

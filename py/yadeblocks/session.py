@@ -29,6 +29,7 @@ from .checkpoint import Checkpoints, Stranger
 from .provenance import fingerprint, sourcesOf
 from .results import Results, Run
 from .scenario import Parameters
+from .stage import Stage
 
 
 class Session:
@@ -147,6 +148,9 @@ class Session:
 		"""A part of a run that takes long: its model is that of the checkpoint if this is where the run is resumed."""
 		self.keepRuns()
 		self.stageNow = Stage(self, label)
+		if self._resumed and self._resumed["label"] == label:
+			self.stageNow.resume(self.checkpoints.loadScene(), self._resumed)
+			self._resumed = None
 		return self.stageNow
 
 	def later(self, write, *arguments, **named):
@@ -210,31 +214,6 @@ class Session:
 			self.checkpoints.write(state, scene)
 		except OSError as error:
 			self._say(f"no checkpoint, {_inWords(error)}") # the run need not end for this
-
-
-class Stage:
-	"""Made by Session.stage. `model`: that of the checkpoint from which the stage is resumed, else None."""
-	def __init__(self, session, label):
-		self.session, self.label, self.parts, self.model = session, label, {}, None
-		self._kept = None
-		resumed = session._resumed
-		if not resumed or resumed["label"] != label: return
-		from yade.wrapper import Omega
-		self.model, self._kept, session._resumed = session.checkpoints.loadScene(), resumed["parts"], None
-		for engine, (time, count) in zip(Omega().engines, resumed["times"]):
-			engine.execTime, engine.execCount = time, count
-
-	def keep(self, **parts):
-		"""What a checkpoint keeps by name, besides the scene: objects with an attribute `kept` that json can write; those that are None are
-		left out."""
-		self.parts = {name: part for name, part in parts.items() if part is not None}
-		if self._kept is not None:
-			for name, part in self.parts.items():
-				part.kept = self._kept[name]
-
-	def run(self):
-		"""Runs until something stops the run; see running.run."""
-		running.run(pause=(lambda: self.session.keepStage(self)) if self.session.period else None, every=self.session.period)
 
 
 def _inWords(error):

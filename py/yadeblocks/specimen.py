@@ -2,7 +2,7 @@
 """Choosing and measuring: rectangles, grid points and edges by place, gauges across joints."""
 import numpy as np
 
-from ._calls import door
+from ._door import door
 from .readings.blocks import blockOfNodes
 
 

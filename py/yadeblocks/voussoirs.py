@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from ._calls import door
+from ._door import door
 from .layout import Layout
 from .plane import unit
 

@@ -9,7 +9,7 @@ Blocks are drawn by the class Gl1_Block, joints and their stresses by Gl1_BlockG
 set there. Needs YADE started with its window, so without `yade -n`."""
 import time
 
-from ._calls import door
+from ._door import door
 
 
 @door(colour='str', zones='flag', cracks='flag', range='point', joints='flag', stresses='flag')

@@ -5,9 +5,7 @@
 	                  governs={"joint_stiffness": "young", "peak": "tension"})
 	found.parameters, found.measured, found.rounds
 """
-import json
 import math
-from pathlib import Path
 from typing import NamedTuple
 
 
@@ -54,11 +52,6 @@ def _next(history, quantity, parameter, target):
 
 def _misfit(measured, targets):
 	return max(abs(math.log(measured[name] / target)) if measured[name] > 0 else math.inf for name, target in targets.items())
-
-
-def calibratedParameters(path, model, experiment):
-	"""Micro-parameters of a sphere model from scripts/calibrated.json; an empty dictionary if it was not calibrated for this."""
-	return json.loads(Path(path).read_text()).get(f"{model} {experiment}", {}).get("parameters", {})
 
 
 def changes(entry, today):

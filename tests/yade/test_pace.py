@@ -26,6 +26,10 @@ def test_strainEnergyIsThatOfTheAccounts(planeStress):
 	entries = dict(O.energy.items())
 	assert entries['blockJoints'] > 0.01 * entries['blockZones'] > 0
 	assert strainEnergy(model) == pytest.approx(entries['blockZones'] + entries['blockJoints'], rel=1e-3) # large displacement in the accounts
+	known = {}
+	assert strainEnergy(model, known) == strainEnergy(model, known) == strainEnergy(model) and set(known) == {'E', 'nu', 'kn', 'ks'}
+	stiffer = {**known, 'E': 2 * known['E']}
+	assert strainEnergy(model, stiffer) < strainEnergy(model) # what is known belongs to the dictionary that is given
 
 
 class Fake:

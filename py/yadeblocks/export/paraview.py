@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from .. import files
-from .._calls import door
+from .._door import door
 from .state import State
 from .vtu import writeCollection, writeGrid
 

@@ -2,7 +2,7 @@
 """What ParaView files show of a model at a time: copied, so that it can be written later."""
 import numpy as np
 
-from .._calls import door
+from .._door import door
 from ..readings.blocks import rigidBlocks
 from ..readings.contacts import freeContactLines
 from ..readings.joints import contactLines

@@ -1,6 +1,6 @@
 # yade-blocks, GPL-2.0-or-later
 """Slow up to the peak, fast after it."""
-from .._calls import door
+from .._door import door
 from ..curves import Peak
 
 

@@ -2,7 +2,7 @@
 """Velocities and forces that change with time."""
 import numpy as np
 
-from .._calls import door
+from .._door import door
 from ..recording import runner
 
 

@@ -2,7 +2,7 @@
 """The path from event to event, told while it is computed."""
 import math
 
-from .._calls import door
+from .._door import door
 from ..progress import Progress
 
 

@@ -1,7 +1,7 @@
 # yade-blocks, GPL-2.0-or-later
 """Rest: waiting for it, and whether it comes."""
 from .. import running
-from .._calls import door
+from .._door import door
 from ..recording import runner
 
 

@@ -1,7 +1,7 @@
 # yade-blocks, GPL-2.0-or-later
 """When a run ends."""
 from .. import running
-from .._calls import door
+from .._door import door
 from ..curves import Peak
 
 

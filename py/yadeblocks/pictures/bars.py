@@ -2,7 +2,7 @@
 """Bars on joints."""
 import numpy as np
 
-from .._calls import door
+from .._door import door
 from .._words import requireOneOf
 from ..plane import left
 from ..readings.joints import contactLines, jointMotion

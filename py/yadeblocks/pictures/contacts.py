@@ -2,7 +2,7 @@
 """Edges that touch without a bond, and their forces."""
 import numpy as np
 
-from .._calls import door
+from .._door import door
 from ..readings.contacts import freeContactLines
 from .blocks import drawBlocks
 from .colours import pressureBlue

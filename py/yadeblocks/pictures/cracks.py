@@ -5,7 +5,7 @@ from collections import defaultdict
 
 import numpy as np
 
-from .._calls import door
+from .._door import door
 from ..readings.joints import contactLines
 from ..readings.names import pointNames, pointsOf
 from ..readings.present import Present

@@ -2,7 +2,7 @@
 """Principal stresses as crosses."""
 import numpy as np
 
-from .._calls import door
+from .._door import door
 from ..readings.zones import principalStresses
 from .blocks import drawOutlines
 from .colours import pressureBlue, tensionRed

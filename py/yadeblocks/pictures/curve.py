@@ -5,7 +5,7 @@ from itertools import cycle
 
 import numpy as np
 
-from .._calls import door
+from .._door import door
 from .colours import black, blue, green, purple, vermillion
 from .figure import picture, textWidth
 

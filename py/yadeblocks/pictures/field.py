@@ -2,7 +2,7 @@
 """Contours of a displacement or a stress."""
 import numpy as np
 
-from .._calls import door
+from .._door import door
 from .._words import requireOneOf
 from ..readings.blocks import rigidBlocks
 from ..readings.zones import outOfPlaneStress, principalStresses, vonMises

@@ -2,7 +2,7 @@
 """How rigid blocks move at once."""
 import numpy as np
 
-from .._calls import door
+from .._door import door
 from ..plane import left
 from ..readings.blocks import areasAndCentroids, blockOfNodes
 from .blocks import drawBlocks

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import files
-from .._calls import door
+from .._door import door
 from .._words import requireOneOf
 from .bars import onJoints, showBars, valuesOnJoints
 from .contacts import showContacts

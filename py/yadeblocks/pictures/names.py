@@ -2,7 +2,7 @@
 """Joints, coloured by name."""
 import numpy as np
 
-from .._calls import door
+from .._door import door
 from ..readings.joints import contactLines
 from ..readings.names import pointNames, pointsOf
 from .blocks import drawBlocks

@@ -2,7 +2,7 @@
 """Forces of groups and of held rigid blocks."""
 import numpy as np
 
-from .._calls import door
+from .._door import door
 from ..readings.reactions import reactionsOf
 from .blocks import drawBlocks
 from .colours import tensionRed

@@ -1,6 +1,6 @@
 # yade-blocks, GPL-2.0-or-later
 """Many panels on one sheet."""
-from .._calls import door
+from .._door import door
 from .bars import onJoints, showBars
 from .cracks import showCracks
 from .crosses import showCrosses

@@ -2,7 +2,7 @@
 """Blocks: which a grid point is of, which are rigid, and what they are as polygons."""
 import numpy as np
 
-from .._calls import door
+from .._door import door
 from ..plane import cross
 
 

@@ -10,6 +10,11 @@ def ofMaterials(model, name):
 	return np.array([getattr(known[label], name) for label in model.materialLabels])
 
 
+def ofZones(model, values):
+	"""Values of materials, in the order of model.materialLabels, for every zone."""
+	return np.repeat(np.asarray(values)[model.blockMaterial], np.diff(model.firstZone))
+
+
 def poissonOf(model):
 	"""Poisson's ratio of every material in model.materialLabels: a Snapshot's own, of a model that of the scene."""
 	if hasattr(model, "poisson"): return model.poisson

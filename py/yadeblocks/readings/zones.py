@@ -2,7 +2,7 @@
 """Stresses and strains of zones."""
 import numpy as np
 
-from .materials import poissonOf
+from .materials import ofZones, poissonOf
 
 
 def principalStresses(stress):
@@ -27,7 +27,7 @@ def zoneStrains(model):
 def outOfPlaneStress(model, stress):
 	"""szz of every zone [Pa]: nu (sxx + syy) in plane strain, 0 in plane stress. stress: (Z, 3) of sxx, syy, sxy."""
 	if model.planeStress: return np.zeros(len(stress))
-	return np.repeat(np.asarray(poissonOf(model))[model.blockMaterial], np.diff(model.firstZone)) * (stress[:, 0] + stress[:, 1])
+	return ofZones(model, poissonOf(model)) * (stress[:, 0] + stress[:, 1])
 
 
 def vonMises(stress, szz):

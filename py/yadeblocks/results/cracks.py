@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from .._calls import door
+from .._door import door
 from ..readings.names import pointNames
 from ..readings.status import intact, isBroken, modes, neverBonded
 from ..recording import known, runner

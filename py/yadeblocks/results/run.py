@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from .._calls import door
+from .._door import door
 from ..curves import hasPeak
 from .cracks import Cracks
 from .quantity import Quantity

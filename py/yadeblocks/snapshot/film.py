@@ -2,7 +2,7 @@
 """Copies of a model taken while it runs."""
 import math
 
-from .._calls import door
+from .._door import door
 from ..recording import runner
 from .snapshot import Snapshot
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from .._calls import door
+from .._door import door
 from ..readings.blocks import rigidBlocks
 from ..readings.materials import poissonOf
 from ..readings.reactions import reactionsOf
