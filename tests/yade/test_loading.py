@@ -66,6 +66,7 @@ def test_servoSlowsWhatIsTooFast():
 		O.engines += [PyRunner(command='record()', iterPeriod=5)]
 		O.run(100000, True)
 		forces, throttles = zip(*history)
+		assert max(throttles) <= 1
 		return max(forces), min(throttles)
 
 	slow, fast = peak(20000, False)[0], peak(1000, False)[0]
