@@ -431,6 +431,21 @@ def test_theLastGoodStateHoldsBodiesToo():
 	assert np.isfinite(model.position).all()
 
 
+def test_bodiesAreWhereTheLastGoodStateHadThem():
+	model = scene()
+	O.run(300, True)
+	names = 'pos', 'vel', 'angVel', 'ori'
+	at300 = [tuple(getattr(b.state, name)) for b in O.bodies for name in names]
+	O.run(20, True)
+	assert at300 != [tuple(getattr(b.state, name)) for b in O.bodies for name in names]
+	model.velocity[model.firstNode[1]] = float('nan')
+	with pytest.raises(RuntimeError, match='of step 300, is put back'):
+		O.run(300, True)
+	rigid = [b for b in O.bodies if model.firstZone[b.id] == model.firstZone[b.id + 1]]
+	assert len(rigid) > 1
+	assert [tuple(getattr(b.state, name)) for b in rigid for name in names] == [x for b in rigid for x in at300[4 * b.id:4 * b.id + 4]]
+
+
 # ---- what is refused
 
 
@@ -487,6 +502,10 @@ def test_otherGravityMassPlaneGroups():
 	model, low, high = pressedAgain()
 	high.state.blockedDOFs, high.state.angVel = 'Z', (1, 0, 0)
 	says(refusal(), 'x-y plane', 'rigid block 2')
+	model, low, high = pressedAgain()
+	high.state.blockedDOFs, high.state.vel = 'Z', (0, 0, 1)
+	says(refusal(), 'x-y plane', 'rigid block 2')
+	model, low, high = pressedAgain()
 	says(refusal(lambda: model.drive('top', nodesWhere(model, lambda x, y: y > 0.55), 'y')), '"top"', 'rigid block')
 
 

@@ -612,6 +612,33 @@ TEST(Tessellation, lloydTakesTheLargestPiece)
 	}
 }
 
+TEST(Tessellation, lloydKeepsASeedWhoseCentroidLiesOutside)
+{
+	// The second seed owns a U: the base and both arms up to y = 1.5. Its centroid, (1.91, 0.61), lies between the arms, so it stays. The first goes to
+	// the centroid of [0,1] x [1.5,3], and the bisector of the two to y = (2.25 + 0.5) / 2.
+	const Polygon u   = solid({ { 0, 0 }, { 4, 0 }, { 4, 1.3 }, { 3, 1.3 }, { 3, 0.3 }, { 1, 0.3 }, { 1, 3 }, { 0, 3 } });
+	auto          o   = sized(1, 1);
+	o.seeds           = { { 0.5, 2.5 }, { 0.5, 0.5 } };
+	const Cells cells = tessellate(u, o);
+	ASSERT_EQ(cells.cells.size(), 2u);
+	std::vector<Real> areas { signedArea(ringOf(cells, 0)), signedArea(ringOf(cells, 1)) };
+	std::sort(areas.begin(), areas.end());
+	EXPECT_NEAR(areas[0], 3 - 1.375, 1e-13); // coordinates of order 1, ~100 roundings
+	EXPECT_NEAR(areas[1], 4.9 - 1.625, 1e-13);
+}
+
+TEST(Tessellation, holesBelongToTheirPiece)
+{
+	// The first seed owns both arms above y = 1.5, two pieces, of which one has a hole.
+	const Ring u { { 0, 0 }, { 4, 0 }, { 4, 3 }, { 2, 3 }, { 2, 1 }, { 1, 1 }, { 1, 3 }, { 0, 3 } };
+	for (const Ring& hole : { rectangle(0.3, 2, 0.6, 2.4), rectangle(2.8, 2, 3.3, 2.4) }) {
+		auto o  = sized(1, 0);
+		o.seeds = { { 0.5, 2.5 }, { 0.5, 0.5 } };
+		const Polygon region { u, { reversed(hole) } };
+		expectTiling(region, tessellate(region, o), 1, hole[0].x() < 1 ? "left" : "right");
+	}
+}
+
 // The bisector of two seeds mirrored on the line from (0.02, 0) to (1, 1) meets the outline 0.02 beside the region's corner.
 TEST(Tessellation, mergesIntoCorners)
 {

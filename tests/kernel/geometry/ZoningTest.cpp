@@ -174,6 +174,23 @@ TEST(CornerZones, areDelaunay)
 	EXPECT_TRUE(tall.triangles == (std::vector<std::array<int, 3>> { { 0, 1, 2 }, { 0, 2, 3 } }));
 }
 
+TEST(RegularZones, areTheirOwnMirrorImage)
+{
+	// With an even number of columns and of rows: diagonals that all ran one way would make a block stiffer along them.
+	const Zones zones = regularZones(rectangle(-0.4, -0.2, 0.4, 0.2), 0.2);
+	ASSERT_EQ(zones.triangles.size(), 2u * 4 * 2);
+	const auto centroids = [&](Real x, Real y) {
+		std::set<std::pair<long, long>> all; // in units of 1e-6 m
+		for (const auto& t : zones.triangles) {
+			const Vec2 c = (zones.points[t[0]] + zones.points[t[1]] + zones.points[t[2]]) / 3;
+			all.insert({ std::lround(1e6 * x * c.x()), std::lround(1e6 * y * c.y()) });
+		}
+		return all;
+	};
+	EXPECT_EQ(centroids(-1, 1), centroids(1, 1));
+	EXPECT_EQ(centroids(1, -1), centroids(1, 1));
+}
+
 TEST(RegularZones, fillARectangle)
 {
 	const Ring  brick = rectangle(0.1, 0.2, 2.1, 1.2);

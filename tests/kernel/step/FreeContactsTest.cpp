@@ -380,6 +380,25 @@ TEST(FreeContacts, BrokenSegmentsAreReleasedWithoutAJump)
 	EXPECT_NEAR(f.dot(along) / (0.7 * Vec2(0.3, 0.8).norm()), 500 + 0.5 * 1000, 1);
 }
 
+TEST(FreeContacts, JointsThatHoldAtOneEndStayJoints)
+{
+	// Pressed, and broken at one of its ends: as a free contact it would lose what holds at the other one.
+	JointParams joint = elasticJoint(1e9, 4e8);
+	joint.tension = joint.cohesion = 1e5;
+	BlockAssembly a                = twoBlocks(joint);
+	moveSecond(a, -1e-6 * normal);
+	computeAllForces(a, joint, 1, 1);
+	a.state.status[1] = Joint::brokenInShear, a.forces.broke[0] = true;
+	computeAllForces(a, joint, 1, 1);
+	EXPECT_FALSE(a.state.released[0]);
+	EXPECT_TRUE(a.contacts.order.empty());
+	EXPECT_EQ(a.state.status[0], Joint::intact);
+	EXPECT_NEAR(a.state.sigma[0], -1e9 * 1e-6, 1e-6); // kn times the opening, to rounding
+	a.state.status[0] = Joint::brokenInShear, a.forces.broke[0] = true;
+	computeAllForces(a, joint, 1, 1);
+	EXPECT_TRUE(a.state.released[0]);
+}
+
 TEST(FreeContacts, DilatedJointsAreReleasedWithoutAJump)
 {
 	// As above, with a joint that dilates for 2e-6 m: it stays a joint while it does, and what it was raised by stays for good.
