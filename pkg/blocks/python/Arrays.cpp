@@ -380,13 +380,13 @@ void defineArrays(PythonModel& c)
 		"segmentArea",
 		[](const py::object& self) { return view<Real>(self, arrays(self).joints.columns.area, 1, Use::result); },
 		"Area of each of the two contact points of every joint; 0 once it has broken and its edges are a free contact, which has all that they carry "
-	        "[m2].");
+		"[m2].");
 	column(
 		c,
 		"pointSigma",
 		[](const py::object& self) { return pointStress(self, &blocks::PointStresses::sigma, arrays(self).state.sigma); },
 		"Normal stresses of the contact points, tension positive [Pa]; where a joint has become a free contact, those of the edges that took its place "
-	        "(then a copy).");
+		"(then a copy).");
 	column(
 		c,
 		"pointTau",
@@ -397,7 +397,7 @@ void defineArrays(PythonModel& c)
 		"pointStatus",
 		[](const py::object& self) { return view<std::uint8_t>(self, arrays(self).state.status, 1, Use::result); },
 		"0 intact, 1 broken in tension, 2 broken in shear, 3 never bonded, 4 softening: beyond its peak. A joint that softens counts as broken from a "
-	        "damage of 0.9 on.");
+		"damage of 0.9 on.");
 }
 
 } // namespace yade
