@@ -1,6 +1,7 @@
 # yade-blocks, GPL-2.0-or-later
 """Damaged files are refused, with their name, before YADE gets to read them; what was not damaged loads with the same bits."""
 import random
+import re
 
 import pytest
 
@@ -71,6 +72,26 @@ def test_withoutASeal(format, tmp_path):
 	O.reset()
 	O.unsealedLoad(file, True)
 	assert checkpoint.sceneModel().fingerprint() == bits
+
+
+@pytest.mark.parametrize(
+	'pattern, other, words', [
+		(r'<format>\d+</format>', '<format>6</format>', 'another version of yade-blocks (format 6'),
+		(r'<density>[^<]*</density>', '<density>2001</density>', 'fingerprint does not fit'),
+	]
+)
+def test_whatNoSealSees(pattern, other, words, tmp_path):
+	"""A file without a seal that says something else: of another format, or with one number that is not what it was."""
+	file = tmp_path / 'theirs.xml'
+	scene()
+	O.unsealedSave(str(file), True)
+	text = file.read_text()
+	assert re.findall(pattern, text)
+	at = [m for m in re.finditer(pattern, text)][-1] # of the materials the model's own come last
+	file.write_text(text[:at.start()] + other + text[at.end():])
+	with pytest.raises((RuntimeError, ValueError)) as caught:
+		O.load(str(file))
+	assert words in str(caught.value)
 
 
 @pytest.mark.parametrize('format', formats)
