@@ -3,6 +3,30 @@
 
 using namespace contacts;
 
+namespace {
+
+/// Largest change of the force on block 1 from step to step when it is moved along `path` in `count` steps, frictionless; by the largest force.
+Real roughness(const BlockAssembly& start, const std::function<Vec2(Real)>& path, int count, Real turn = 0)
+{
+	BlockAssembly a      = start;
+	Vec2          before = Vec2::Zero();
+	Real          jump = 0, largest = 0;
+	for (int i = 0; i <= count; ++i) {
+		const Real s = Real(i) / count;
+		for (int n = a.mesh.firstNode[1]; n < a.mesh.firstNode[2]; ++n)
+			a.state.displacement[n] = start.state.displacement[n];
+		moveBlock(a, 1, path(s), turn * s);
+		computeAllForces(a, frictional(1e6, 1e6, 0), 0);
+		const Vec2 f = contactForce(a, 1);
+		if (i) jump = std::max(jump, (f - before).norm());
+		largest = std::max(largest, f.norm());
+		before  = f;
+	}
+	return jump / largest;
+}
+
+} // namespace
+
 TEST(FreeContacts, AreasAddUp)
 {
 	// A box on a floor of five blocks of unequal widths, and the box's own bottom in three edges: the areas are those of the

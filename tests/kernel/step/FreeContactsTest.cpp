@@ -3,6 +3,107 @@
 
 using namespace contacts;
 
+namespace {
+
+struct Stress {
+	int  poses = 0, touched = 0;
+	Real gain      = 0; ///< worst, of what there was
+	Real lost      = 0; ///< worst imbalance of energy and friction, of what there was
+	long edgePairs = 0, active = 0;
+};
+
+/// Two random polygons each time: slivers, tiny edges, reentrant corners, shared vertices and edges, started in touch or overlapping.
+Stress stress(int count, int steps, unsigned seed)
+{
+	Stress                               result;
+	std::mt19937                         random(seed);
+	std::uniform_real_distribution<Real> u(-1, 1);
+	for (int pose = 0; pose < count; ++pose) {
+		auto polygon = [&] {
+			const int kind = int(random() % 5);
+			Ring      ring = randomPolygon(random, 0.5, 3 + int(random() % 6), kind == 0 ? 0.04 : 1);
+			if (kind == 1) { // a corner cut by a tiny edge
+				const size_t i = random() % ring.size(), n = ring.size();
+				const Vec2   p = ring[i], next = ring[(i + 1) % n], last = ring[(i + n - 1) % n];
+				ring[i] = p + 1e-3 * (next - p);
+				ring.insert(ring.begin() + long(i), p + 1e-3 * (last - p));
+			}
+			if (kind == 2) { // a grid point in the middle of an edge
+				const size_t i = random() % ring.size();
+				ring.insert(ring.begin() + long(i) + 1, Vec2((ring[i] + ring[(i + 1) % ring.size()]) / 2));
+			}
+			if (kind == 3) { // a corner that bends inward a little
+				const size_t i = random() % ring.size();
+				const Vec2   p = ring[i], q = ring[(i + 1) % ring.size()], e = q - p;
+				ring.insert(ring.begin() + long(i) + 1, Vec2((p + q) / 2 + 0.05 * Vec2(-e.y(), e.x())));
+			}
+			return ring;
+		};
+		auto usable = [](const Ring& ring) { // addFan's zones must not overlap
+			const Vec2 inner = 0.9 * mean(ring) + 0.1 * ring[0];
+			for (size_t i = 0; i < ring.size(); ++i)
+				if (cross(ring[i] - inner, ring[(i + 1) % ring.size()] - inner) <= 0) return false;
+			return true;
+		};
+		Ring first = polygon(), second = polygon();
+		while (!usable(first))
+			first = polygon();
+		while (!usable(second))
+			second = polygon();
+		const Vec2 apart(std::cos(6 * u(random)), std::sin(6 * u(random)));
+		switch (random() % 4) {
+		case 0:
+			second = shifted(second, 0.9 * apart);
+			break;
+		case 1:
+			second = shifted(second, first[0] * 1.0 - second[second.size() / 2]);
+			break; // vertex upon vertex
+		case 2: {      // its mirror image across an edge
+			const Vec2 p = first[0], e = (first[1] - first[0]).normalized();
+			second.clear();
+			for (auto it = first.rbegin(); it != first.rend(); ++it) {
+				const Vec2 d = *it - p;
+				second.push_back(p + 2 * d.dot(e) * e - d);
+			}
+			if (!usable(second)) second = shifted(box(0, 0, 0.3, 0.4), first[0]); // another inner point
+			break;
+		}
+		default:
+			second = shifted(second, 1.05 * apart);
+		}
+		BlockAssembly a = scene(5e7);
+		if (random() % 3)
+			addFan(a, first);
+		else
+			addRigid(a, first);
+		addFan(a, second);
+		Simulation run(a, frictional(1e6, 5e5, (pose % 3) * 15 * degree), 0.5);
+		for (int b : { 0, 1 })
+			if (a.mesh.firstZone[b] < a.mesh.firstZone[b + 1])
+				setVelocity(a, b, 0.5 * Vec2(u(random), u(random)) + (b ? -0.3 : 0.3) * apart, u(random));
+		Real start = 0, most = 0, imbalance = 0;
+		bool touched = false;
+		run.steps(steps, [&](Real energy) {
+			if (run.step == 0) start = energy;
+			most      = std::max(most, energy);
+			imbalance = std::max(imbalance, std::abs(energy + contactFriction(a) - start));
+			for (int c : a.contacts.order)
+				for (const EdgePair& e : a.state.contacts[c].edges)
+					touched |= e.touching, ++result.edgePairs, result.active += e.touching;
+		});
+		EXPECT_EQ(a.firstBadNode(), -1) << "pose " << pose;
+		const Real gain = most / start - 1;
+		if (gain > 0.01) std::printf("pose %d gains %.3f\n", pose, gain);
+		result.gain = std::max(result.gain, gain);
+		result.lost = std::max(result.lost, imbalance / start);
+		result.touched += touched;
+		++result.poses;
+	}
+	return result;
+}
+
+} // namespace
+
 TEST(FreeContacts, CornerHitsKeepTheEnergy)
 {
 	// Polygons thrown at each other, without friction, both deformable or one of them rigid: energy after the hit against

@@ -3,6 +3,35 @@
 
 using namespace contacts;
 
+namespace {
+
+void moveSecond(BlockAssembly& a, const Vec2& u)
+{
+	for (int n = a.mesh.firstNode[1]; n < a.nodeCount(); ++n)
+		a.state.displacement[n] += u, a.state.velocity[n] = u;
+}
+
+/// Slips of 4e-7 m, with the joint's law alone.
+void slideSecond(BlockAssembly& a, int steps)
+{
+	for (int i = 0; i < steps; ++i) {
+		moveSecond(a, 4e-7 * along);
+		updateKinematics(a, { 0, 1 });
+		advanceStresses(a, jointsOf(a, 0), Brittle {});
+	}
+}
+
+/// Nodal forces of the joint as it is, everything stopped.
+std::vector<Vec2> forcesAtRest(BlockAssembly& a)
+{
+	for (Vec2& v : a.state.velocity)
+		v.setZero();
+	sumForces(a);
+	return a.forces.nodal;
+}
+
+} // namespace
+
 TEST(FreeContacts, BrokenSegmentsAreReleasedWithoutAJump)
 {
 	// Pressed and sheared until the joint slides; the step in which its segments become free pairs must not change the forces.
