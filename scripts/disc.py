@@ -63,9 +63,10 @@ def build():
 
 
 def centreStress(model):
-	"""Mean sxx, syy, sxy of the zones within a twentieth of the radius, by volume [Pa]."""
+	"""Mean sxx, syy, sxy of the zones within a twentieth of the radius, by volume; where zones are larger, of those around the innermost grid point [Pa]."""
 	middles = model.reference[model.zoneNodes].mean(axis=1)
 	near = np.hypot(*middles.T) < 0.05 * radius
+	if not near.any(): near = (model.zoneNodes == np.hypot(*model.reference.T).argmin()).any(axis=1)
 	return np.average(model.zoneStress()[near], axis=0, weights=model.zoneVolume[near])
 
 

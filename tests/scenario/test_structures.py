@@ -66,6 +66,17 @@ def test_disc(tmp_path):
 
 
 @needsYade
+def test_discOfLargeZones(tmp_path):
+	"""No zone lies within a twentieth of the radius: those around the centre are asked. An error of the order of (zone / radius)^2, 6 %, as above."""
+	errors = []
+	for zone in 0.0124, 0.008:
+		(tmp_path / str(zone)).mkdir()
+		stress, expected = measured(tmp_path / str(zone), "disc", f"zone={zone}", "vtk=False")["centre_stress"]
+		errors.append(abs(stress / expected - 1))
+	assert 0.12 > errors[0] > errors[1]
+
+
+@needsYade
 def test_triplet(tmp_path):
 	"""Joints that soften: all reach their strength together, but for what the first has lost, exp(-c l2 / GfII) at slips l2 that differ by c / ks: 3 %."""
 	found = measured(tmp_path, "triplet")
