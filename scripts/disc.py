@@ -63,7 +63,9 @@ def build():
 
 
 def centreStress(model):
-	"""Mean sxx, syy, sxy of the zones within a twentieth of the radius, by volume; where zones are larger, of those around the innermost grid point [Pa]."""
+	"""Mean sxx, syy, sxy of the zones within a twentieth of the radius, by volume [Pa].
+
+	Where zones are too large for that, of those around the innermost grid point."""
 	middles = model.reference[model.zoneNodes].mean(axis=1)
 	near = np.hypot(*middles.T) < 0.05 * radius
 	if not near.any(): near = (model.zoneNodes == np.hypot(*model.reference.T).argmin()).any(axis=1)

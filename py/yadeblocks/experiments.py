@@ -36,7 +36,8 @@ def seriesStiffness(height, young, poisson, kn, side, planeStrain=True):
 	"""Stiffness per area across a mortar layer of Voronoi blocks between two stiff faces [Pa/m]: its mortar, the joints within and
 	one more at the face in series.
 
-	height [m]; young [Pa]; kn [Pa/m]: of all joints; side: square root of the mean area of a block [m]. Within 5 % (design.md, section 4)."""
+	height [m]; young [Pa]; kn [Pa/m]: of all joints; side: square root of the mean area of a block [m]. Within 5 % of what the couplet in tension
+	has before it breaks."""
 	modulus = young / (1 - poisson**2 if planeStrain else 1)
 	return 1 / (height / modulus + height / (0.92 * kn * side) + 1 / kn)
 

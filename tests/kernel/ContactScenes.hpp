@@ -107,7 +107,7 @@ struct Simulation {
 			const Real           stored = zoneEnergy(*before) + jointEnergy(*before), loads = loadWork(*before);
 			for (int n = 0; n < a.nodeCount(); ++n) // blocks without mass that a test moves
 				if (a.mesh.mass[n] == 0) a.state.velocity[n] = rigidVelocity(n);
-			work = integrate(a, damping, dt, step * dt, true, threads);
+			work = move(a, damping, dt, step * dt, true, threads);
 			each(stored + work.kinetic - loads);
 		}
 	}

@@ -332,13 +332,40 @@ inline MotionGroup pushed(const std::string& name, std::vector<int> dofs, Real f
 	return g;
 }
 
+/// One lopsided zone.
+inline BlockAssembly triangle()
+{
+	BlockAssembly a;
+	a.strain    = Strain::small;
+	a.thickness = 0.4;
+	a.addMaterial({ 2000, 0.3, 5 });
+	a.addBlock({ { 0.1, 0 }, { 1.2, 0.3 }, { 0.4, 0.9 } }, { { 0, 1, 2 } }, { { 0, 1, 2 } }, 0);
+	return a;
+}
+
+/// One degree of freedom left free: y of node 2.
+inline BlockAssembly oscillator()
+{
+	BlockAssembly a = triangle();
+	a.addGroup(driven("rest", { 0, 1, 2, 3, 4 }, 0));
+	return a;
+}
+
+inline Damping damped(Damping::Kind kind, Real alpha = 0.3)
+{
+	Damping d;
+	d.kind  = kind;
+	d.alpha = alpha;
+	return d;
+}
+
 /// Damped steps until the unbalanced ratio is below `target`; the number of steps, or -1 if `most` did not do.
 inline int relax(BlockAssembly& a, Damping damping, Real dt, Real target, int most)
 {
 	for (int i = 0; i < most; ++i) {
 		computeForces(a);
 		if (i % 10 == 0 && i > 0 && unbalancedRatio(a, 1e-300) < target) return i;
-		integrate(a, damping, dt, i * dt);
+		move(a, damping, dt, i * dt);
 	}
 	return -1;
 }

@@ -65,7 +65,7 @@ def test_aFallingBlockBouncesAndKeepsItsEnergy():
 	assert -2 * depth < min(heights) < 0 # it does touch, and does not pass
 	first = next(i for i, height in enumerate(heights) if height < 0)
 	assert max(heights[first:]) > 2e-4 # and comes up again, by more than vibration of the block leaves to chance
-	# 1 % of the energy that is in the system is what issue 3 allows; the balance of a frictionless bounce is of order (omega dt)^2
+	# 1 % of the energy that is in the system is allowed; the balance of a frictionless bounce is of order (omega dt)^2
 	assert max(abs(s - sums[0]) for s in sums) < 0.01 * fall
 
 

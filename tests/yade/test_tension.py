@@ -41,9 +41,9 @@ def test_resultFile(small):
 		else: assert q['error'] == pytest.approx((q['measured'] - q['expected']) / q['expected'], rel=1e-9) and q['source']
 	assert quantities['peak_tensile_stress']['expected'] == 0.43 and quantities['peak_tensile_stress']['unit'] == 'MPa'
 	# No joint is stronger than 0.6 MPa, and a section of joints carries no more; at a tenth of the default's steps inertia adds
-	# (design.md, section 3: 12 % at 1/32).
+	# 12 % at 1/32.
 	assert 0.2 < quantities['first_crack_stress']['measured'] <= quantities['peak_tensile_stress']['measured'] < 0.6 * 1.12
-	# The series formula holds within 5 % at the default (issue 2); 4,000 steps add their inertia
+	# The series formula holds within 5 % at the default; 4,000 steps add their inertia
 	assert abs(quantities['joint_stiffness']['error']) < 0.1
 	for pair in 'mortar-mortar', 'unit-mortar':
 		for mode in 'tension', 'shear':

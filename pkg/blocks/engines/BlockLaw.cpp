@@ -18,7 +18,7 @@ namespace {
 	[[noreturn]] void typeError(const string& sentence)
 	{
 		PyErr_SetString(PyExc_TypeError, sentence.c_str());
-		py::throw_error_already_set();
+		throw py::error_already_set();
 	}
 }
 

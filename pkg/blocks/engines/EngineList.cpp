@@ -5,7 +5,6 @@
 #include <blocks/engines/EngineList.hpp>
 #include <blocks/kernel/Parallel.hpp>
 #include <blocks/views/BlockGeom.hpp>
-#include <blocks/views/Materials.hpp>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
 #include <core/Interaction.hpp>

@@ -2,19 +2,15 @@
 #include <algorithm>
 #include <blocks/kernel/Parallel.hpp>
 #include <blocks/kernel/geometry/Polygon.hpp>
-#include <blocks/kernel/model/JointDetection.hpp>
 #include <blocks/kernel/step/TimeStep.hpp>
+#include <blocks/views/Block.hpp>
 #include <blocks/views/BlockModel.hpp>
 #include <blocks/views/BlockState.hpp>
-#include <blocks/views/JointPhys.hpp>
 #include <blocks/views/Materials.hpp>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
-#include <core/Interaction.hpp>
-#include <core/InteractionContainer.hpp>
 #include <core/Omega.hpp>
 #include <limits>
-#include <set>
 
 namespace yade {
 

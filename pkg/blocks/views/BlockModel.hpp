@@ -13,7 +13,7 @@ namespace yade {
 
 class BlockModel;
 
-/// The model's methods and arrays as Python sees them; the definitions stand in BlockModelPython.cpp.
+/// The model's methods and arrays as Python sees them; the definitions stand in `python/`, a part a file.
 struct BlockModelPython : py::def_visitor<BlockModelPython> {
 	void visit(py::class_<BlockModel, shared_ptr<BlockModel>, py::bases<Serializable>, boost::noncopyable>&) const;
 };

@@ -121,14 +121,14 @@ TEST(ElasticJump, IsWhereSlowLoadingArrives)
 	Real time                                                         = 0;
 	for (; walked.state.groups[1].travelled < 1e-3 * jump.time; time += dt) {
 		computeForces(walked);
-		integrate(walked, damping, dt, time);
+		move(walked, damping, dt, time);
 	}
 	for (int n : { 1, 2 })
 		walked.state.groups[n].rampTime = 0, walked.state.groups[n].startTime = 0;
 	walked.state.groups[1].target = 0;
 	for (int i = 0; i < 20000; ++i, time += dt) {
 		computeForces(walked);
-		integrate(walked, damping, dt, time);
+		move(walked, damping, dt, time);
 	}
 	const Real excess  = walked.state.groups[1].travelled / leapt.state.groups[1].travelled;
 	Real       largest = 0;
@@ -152,7 +152,7 @@ TEST(ElasticJump, GoesOnWithoutAStart)
 	for (int i = 0; i < 200; ++i) {
 		computeForces(a);
 		EXPECT_LT(unbalancedRatio(a, 0), 1e-5);
-		integrate(a, damping, dt, i * dt);
+		move(a, damping, dt, i * dt);
 	}
 }
 

@@ -1,6 +1,5 @@
 // yade-blocks, GPL-2.0-or-later
 #include <Specimens.hpp>
-#include <blocks/kernel/analysis/StabilityWatch.hpp>
 
 using namespace specimens;
 
@@ -15,20 +14,13 @@ struct Books {
 	{
 		blocks::computeForces(a, Brittle {}, dt, true);
 		const Real     stored = specimens::storedEnergy(a), loads = loadWork(a);
-		const StepWork w = integrate(a, d, dt, time, true);
+		const StepWork w = move(a, d, dt, time, true);
 		damping += pending + w.dampingBefore;
 		pending = w.dampingAfter;
 		kinetic = w.kinetic;
 		return stored + kinetic + damping + a.state.accounts.friction + a.state.accounts.fracture - groupWork(a) - loads;
 	}
 };
-
-Damping damped(Damping::Kind kind)
-{
-	Damping d;
-	d.kind = kind;
-	return d;
-}
 
 void shake(BlockAssembly& a, Real speed)
 {

@@ -48,7 +48,7 @@ std::vector<Crack> stepped(BlockAssembly a, size_t cracks)
 		computeForces(a);
 		for (int i = 0; i < a.pointCount(); ++i)
 			if (!known[i] && a.state.status[i] != Joint::intact) known[i] = true, broke.push_back({ i, a.state.groups[1].travelled });
-		integrate(a, damping, dt, step * dt);
+		move(a, damping, dt, step * dt);
 	}
 	return broke;
 }

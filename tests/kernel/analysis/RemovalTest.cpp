@@ -23,7 +23,7 @@ void run(BlockAssembly& a, Real dt, int steps, Real alpha = 0.3)
 	local.alpha = alpha;
 	for (int i = 0; i < steps; ++i) {
 		blocks::computeForces(a, Brittle {}, dt, true);
-		integrate(a, local, dt, i * dt, true);
+		move(a, local, dt, i * dt, true);
 	}
 }
 
@@ -38,7 +38,7 @@ struct Balance {
 	{
 		blocks::computeForces(a, Brittle {}, dt, true);
 		const Real     stored = specimens::storedEnergy(a), loads = loadWork(a);
-		const StepWork w = integrate(a, damping, dt, time, true);
+		const StepWork w = move(a, damping, dt, time, true);
 		booked += pending + w.dampingBefore;
 		pending         = w.dampingAfter;
 		swinging        = stored + w.kinetic;
@@ -144,7 +144,7 @@ TEST(Removal, ContactsAreForgotten)
 	const int n = int(0.35 / dt); // falls 0.6 m
 	for (int i = 0; i < n; ++i) {
 		blocks::computeForces(a, Brittle {}, dt);
-		integrate(a, none, dt, i * dt);
+		move(a, none, dt, i * dt);
 	}
 	Vec2 momentum = Vec2::Zero();
 	Real all      = 0;

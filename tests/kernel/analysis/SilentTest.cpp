@@ -38,7 +38,7 @@ std::string saidWithin(BlockAssembly& a, int steps)
 		for (int i = 0; i < steps; ++i) {
 			const Real dt = 0.7 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
 			blocks::computeForces(a, Brittle {}, dt);
-			integrate(a, none, dt, i * dt);
+			move(a, none, dt, i * dt);
 		}
 	} catch (const std::exception& error) {
 		return error.what();
@@ -85,7 +85,7 @@ TEST(Silent, TheFirstTouchIsInTime)
 		none.kind = Damping::Kind::none;
 		Real dt   = 0.7 * stableTimeStep(a, nodalStiffness(a), a.state.inertia);
 		for (int i = 0; i < start; ++i)
-			blocks::computeForces(a, Brittle {}, dt), integrate(a, none, dt, i * dt);
+			blocks::computeForces(a, Brittle {}, dt), move(a, none, dt, i * dt);
 		const Real v = 14; // c is 740 m/s
 		for (int n = a.mesh.firstNode[1]; n < a.nodeCount(); ++n)
 			a.state.velocity[n] = { -v, 0 };
@@ -96,7 +96,7 @@ TEST(Silent, TheFirstTouchIsInTime)
 			for (const FreeContact& c : a.state.contacts)
 				for (int active : c.active)
 					deepest = std::max(deepest, -c.edges[active].sigma[0] / c.joint.kn);
-			integrate(a, none, dt, (start + i) * dt);
+			move(a, none, dt, (start + i) * dt);
 		}
 		EXPECT_GT(deepest, 0);
 		EXPECT_LE(deepest, v * dt * (1 + 1e-9));
@@ -138,7 +138,7 @@ Real offBalance(Real share, Real phase, Real safety, Real kn = 1e11, Real* first
 		}
 		parted = touched && !touches && a.centroid(1).x() - a.centroid(0).x() > 0.1 + way;
 		touched |= touches;
-		integrate(a, none, dt, i * dt);
+		move(a, none, dt, i * dt);
 	}
 	EXPECT_TRUE(parted);
 	blocks::computeForces(a, Brittle {}, dt);
@@ -277,7 +277,7 @@ TEST(Silent, AJumpOfEnergyIsSaidOnceAndLoadsAreNone)
 				EXPECT_TRUE(verdict.stable) << verdict.reason;
 				all += verdict.warning;
 			}
-			integrate(a, none, dt, step * dt);
+			move(a, none, dt, step * dt);
 		}
 		return all;
 	};
@@ -311,7 +311,7 @@ TEST(Silent, RestIsMeasuredWhateverTheScene)
 	Damping    local;
 	for (int i = 0; i < 3000; ++i) {
 		blocks::computeForces(a, Brittle {}, dt);
-		integrate(a, local, dt, 2e3 + i * dt);
+		move(a, local, dt, 2e3 + i * dt);
 	}
 	blocks::computeForces(a, Brittle {}, dt);
 	EXPECT_LT(unrest(a, 3e3), 1e-9);

@@ -6,13 +6,6 @@ using namespace specimens;
 
 namespace {
 
-Damping damped(Damping::Kind kind)
-{
-	Damping d;
-	d.kind = kind;
-	return d;
-}
-
 /// Looks every 20 steps; the step of the first bad verdict, or -1.
 long firstAlarm(BlockAssembly& a, StabilityWatch& watch, Real dt, int steps, StabilityWatch::Verdict& verdict)
 {
@@ -20,7 +13,7 @@ long firstAlarm(BlockAssembly& a, StabilityWatch& watch, Real dt, int steps, Sta
 	for (int i = 0; i < steps; ++i) {
 		computeForces(a);
 		if (i % 20 == 0 && !(verdict = watch.look(a, i, i * dt, dt)).stable) return i;
-		integrate(a, none, dt, i * dt);
+		move(a, none, dt, i * dt);
 	}
 	return -1;
 }
@@ -41,7 +34,7 @@ static void expectSilenceFrom(BlockAssembly& a, int first, Real dt)
 	Damping                 none = damped(Damping::Kind::none);
 	for (int i = 0; i < first; ++i) {
 		computeForces(a);
-		integrate(a, none, dt, i * dt);
+		move(a, none, dt, i * dt);
 	}
 	EXPECT_EQ(firstAlarm(a, watch, dt, 3000, verdict), -1) << verdict.reason;
 }

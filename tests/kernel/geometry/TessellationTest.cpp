@@ -937,10 +937,3 @@ TEST(BoundaryVertices, ofAGrid)
 	EXPECT_EQ(boundary.size(), 12u);
 	EXPECT_TRUE(std::is_sorted(boundary.begin(), boundary.end()));
 }
-
-// Mutations tried on Tessellation.cpp, each noticed by at least one test: the sign of the symbolic shift, for walls and for
-// corners; crossings at one point left in arbitrary order; guards too near; 52 random bits for 53; 1.61 dropped; the
-// centroid's factor; any piece instead of the largest; holes not cut, or cut on one side only; a cut's end not given to the
-// neighbour, or not exactly on its wall; edges across the region merged; corners moved; nodes that separate nothing kept;
-// no check of the cells a merge changes; no flattening; no trimming; no division at necks; points on an edge unsorted.
-// Not noticed, being equivalent but for cells flattened before: the order of a merge's two nodes.

@@ -474,8 +474,3 @@ TEST(CellZones, areNoSliversRoundAHole)
 			EXPECT_LT(quality(cellZones(ringOf(cells, i), Zoning::fan).zones).worstAspect, 2 / options.mergeFraction) << "seed " << seed;
 	}
 }
-
-// Mutations tried on Zoning.cpp, each noticed by at least one test: a factor in the fan's centroid; the kernel without its
-// border; the fan's point not checked; split points moved off; smoothing without its check; no refinement; refinement
-// outside of the block; encroachment ignored; grading ignored; holes filled; `kept` ignored; a rounding error giving one
-// more column; the aspect's factor; a rectangle's angles unchecked.

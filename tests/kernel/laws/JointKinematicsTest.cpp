@@ -1,7 +1,5 @@
 // yade-blocks, GPL-2.0-or-later
 #include <Specimens.hpp>
-#include <numeric>
-#include <set>
 
 using namespace specimens;
 
@@ -68,7 +66,7 @@ BlockAssembly emptyAssembly(Real thickness)
 
 } // namespace
 
-TEST(ContactKinematics, OpeningAndSlipInPlainNumbers)
+TEST(JointKinematics, OpeningAndSlipInPlainNumbers)
 {
 	// Lower block's top edge y = 0.5 faces up: n = (0, 1), and t, n turned by +90 degrees, = (-1, 0). The upper block moves by
 	// (0.02, 0.03): opening 0.03, slip -0.02 at both points. Positions of order 1, a handful of roundings.
@@ -93,7 +91,7 @@ TEST(ContactKinematics, OpeningAndSlipInPlainNumbers)
 	EXPECT_NEAR(f[3].y() - f[2].y(), 0.0576 / 0.8, 4000 * eps);
 }
 
-TEST(ContactKinematics, ForcesAreTheGradientOfTheSprings)
+TEST(JointKinematics, ForcesAreTheGradientOfTheSprings)
 {
 	// Large openings, slips and rotations, three blocks, joints of unequal meshes. Central differences with d = 1e-6: truncation
 	// d^2/6 U''' ~ 1e-12/6 x (k/L ~ 1e3) = 2e-10, rounding eps U/d = 2e-16 x 20/1e-6 = 4e-9. Allowed is three times their sum.
@@ -120,7 +118,7 @@ TEST(ContactKinematics, ForcesAreTheGradientOfTheSprings)
 		}
 }
 
-TEST(ContactKinematics, ForceAndMomentVanishHoweverFarApart)
+TEST(JointKinematics, ForceAndMomentVanishHoweverFarApart)
 {
 	// Any stresses, openings of twice the block's size, any rotation: rounding only. 40 nodes' forces of order k A d < 200,
 	// arms below 5, some 20 roundings each: 40 x 200 x 5 x 20 eps = 2e-10; relative to the largest force (100) well below 1e-10.
@@ -147,7 +145,7 @@ TEST(ContactKinematics, ForceAndMomentVanishHoweverFarApart)
 	}
 }
 
-TEST(ContactKinematics, RigidMotionOpensNothing)
+TEST(JointKinematics, RigidMotionOpensNothing)
 {
 	// The pair moves far away and turns by any angle. Positions of order 10: 10 roundings of 10 eps.
 	for (Real angle : { 0.01, 1.3, 3.0, -2.0, 40 * M_PI + 0.7 }) {
@@ -162,7 +160,7 @@ TEST(ContactKinematics, RigidMotionOpensNothing)
 	}
 }
 
-TEST(ContactKinematics, BondedAcrossAGapTheGapIsNoOpening)
+TEST(JointKinematics, BondedAcrossAGapTheGapIsNoOpening)
 {
 	// A tolerance of 1e-3 bonds blocks that are 4e-4 apart and askew; unstressed, whatever the pair's rigid motion.
 	BlockAssembly a = emptyAssembly(1);
@@ -179,7 +177,7 @@ TEST(ContactKinematics, BondedAcrossAGapTheGapIsNoOpening)
 	}
 }
 
-TEST(ContactKinematics, FrameBisectsTheEdges)
+TEST(JointKinematics, FrameBisectsTheEdges)
 {
 	// Block 1 turns by 0.4 about the joint's middle: the frame turns by 0.2. At the ends the edges are 2 (L/2) sin(0.2) apart
 	// along the bisecting normal: opening +-L sin(0.2); slip 0.

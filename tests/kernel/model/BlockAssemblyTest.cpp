@@ -222,7 +222,7 @@ TEST(BlockAssembly, SameBitsOnAnyNumberOfThreads)
 			Run run;
 			for (int i = 0; i < 30; ++i) {
 				computeForces(a, threads);
-				const StepWork work = integrate(a, damping, 1e-5, i * 1e-5, true, threads);
+				const StepWork work = move(a, damping, 1e-5, i * 1e-5, true, threads);
 				run.damping += work.dampingBefore + work.dampingAfter, run.kinetic += work.kinetic;
 			}
 			run.displacement = a.state.displacement, run.velocity = a.state.velocity, run.c = a.state.viscosity;

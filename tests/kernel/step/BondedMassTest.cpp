@@ -112,7 +112,7 @@ TEST(BondedMass, PWaveRunsThroughABarOfBlocks)
                 none.kind = Damping::Kind::none;
                 for (int i = 0; i < steps; ++i) {
                         computeForces(a);
-                        integrate(a, none, dt, i * dt);
+                        move(a, none, dt, i * dt);
                 }
                 Real squares = 0;
                 for (int block = 0; block < n; ++block) {
@@ -167,7 +167,7 @@ TEST(BondedMass, FragmentSpinsAThousandTurns)
 			most = std::max(most, energy());
 			ASSERT_NEAR(meanPressure(a) / expanded, 1, 0.01) << "turn " << i / perTurn;
 		}
-		integrate(a, damping, dt, i * dt);
+		move(a, damping, dt, i * dt);
 	}
 	EXPECT_LT(most / before - 1, 1e-3); // of half steps: w dt/2 = 0.2 %
 
@@ -181,7 +181,7 @@ TEST(BondedMass, FragmentSpinsAThousandTurns)
 	damping.kind = Damping::Kind::local;
 	for (int i = 0; i < 20000; ++i) {
 		computeForces(a);
-		integrate(a, damping, dt, i * dt);
+		move(a, damping, dt, i * dt);
 	}
 	computeForces(a);
 	Real left = 0;

@@ -6,32 +6,6 @@ using namespace specimens;
 namespace {
 
 /// A lopsided triangle in small strain, so that forces are linear to rounding.
-BlockAssembly triangle()
-{
-	BlockAssembly a;
-	a.strain    = Strain::small;
-	a.thickness = 0.4;
-	a.addMaterial({ 2000, 0.3, 5 });
-	a.addBlock({ { 0.1, 0 }, { 1.2, 0.3 }, { 0.4, 0.9 } }, { { 0, 1, 2 } }, { { 0, 1, 2 } }, 0);
-	return a;
-}
-
-/// One degree of freedom left free: y of node 2.
-BlockAssembly oscillator()
-{
-	BlockAssembly a = triangle();
-	a.addGroup(driven("rest", { 0, 1, 2, 3, 4 }, 0));
-	return a;
-}
-
-Damping damped(Damping::Kind kind, Real alpha = 0.3)
-{
-	Damping d;
-	d.kind  = kind;
-	d.alpha = alpha;
-	return d;
-}
-
 } // namespace
 
 TEST(CentralDifference, FollowsItsOwnExactSolution)

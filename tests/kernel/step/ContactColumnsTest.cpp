@@ -3,7 +3,7 @@
 
 using namespace contacts;
 
-TEST(FreeContacts, SameBitsWhateverThreadsAndOrder)
+TEST(ContactColumns, SameBitsWhateverThreadsAndOrder)
 {
 	BlockAssembly     one = heap(12), two = one, three = one, shuffled = one;
 	const JointParams joint = frictional(2e6, 1e6, 25 * degree);
@@ -31,7 +31,7 @@ TEST(FreeContacts, SameBitsWhateverThreadsAndOrder)
 	expectSameBits(one, shuffled);
 }
 
-TEST(FreeContacts, RestingChangesNothing)
+TEST(ContactColumns, RestingChangesNothing)
 {
 	// Looking at every pair and every vertex in every step gives the same bits, and is far more work.
 	BlockAssembly     resting = heap(12), restless = resting;
@@ -62,7 +62,7 @@ TEST(FreeContacts, RestingChangesNothing)
 	EXPECT_GT(asleep, pairs / 2);
 }
 
-TEST(FreeContacts, ColumnsHoldWhatTheStateSays)
+TEST(ContactColumns, ColumnsHoldWhatTheStateSays)
 {
 	// What a step copied from the state for later ones is as good as what it would copy now: edges part and meet, contacts come and go, somebody changes
 	// their joints, and for a while contacts are worked on one by one.
@@ -79,7 +79,7 @@ TEST(FreeContacts, ColumnsHoldWhatTheStateSays)
 			for (int c : kept.contacts.order)
 				advanceContact(kept, c, s.dt);
 			sumForces(kept);
-			integrate(kept, s.damping, s.dt, 0, true);
+			move(kept, s.damping, s.dt, 0, true);
 		} else
 			s.steps(1);
 		copied.state.contacts.all(); // as if somebody had written there
@@ -90,7 +90,7 @@ TEST(FreeContacts, ColumnsHoldWhatTheStateSays)
 	EXPECT_EQ(contactFriction(kept), contactFriction(copied));
 }
 
-TEST(FreeContacts, ColumnsFollowWhatHappensToPairs)
+TEST(ContactColumns, ColumnsFollowWhatHappensToPairs)
 {
 	// A box on another, pressed in by depth d: sigma = -kn d, and tau = ks times what it slid, by v dt in each step, as long as that is below friction.
 	// Nobody asks who rests in between, so that columns are not filled anew for that reason.
@@ -129,7 +129,7 @@ TEST(FreeContacts, ColumnsFollowWhatHappensToPairs)
 	expectTau(0); // it has forgotten what it slid
 }
 
-TEST(FreeContacts, ColumnsDoNotOutliveAStateThatIsPutBack)
+TEST(ContactColumns, ColumnsDoNotOutliveAStateThatIsPutBack)
 {
 	// An earlier state is put back while other contacts are in work, by every way there is: it goes on as it did the first time. Whoever shows contacts
 	// hears of it.
@@ -158,7 +158,7 @@ TEST(FreeContacts, ColumnsDoNotOutliveAStateThatIsPutBack)
 	}
 }
 
-TEST(FreeContacts, NobodyChangesAContactUnseen)
+TEST(ContactColumns, NobodyChangesAContactUnseen)
 {
 	BlockAssembly a = heap(3);
 	Simulation    s(a, frictional(2e6, 1e6, 25 * degree), 0.4);
@@ -188,7 +188,7 @@ TEST(FreeContacts, NobodyChangesAContactUnseen)
 	EXPECT_TRUE(changed());
 }
 
-TEST(FreeContacts, ColumnsHaveRoomForAllPairs)
+TEST(ContactColumns, ColumnsHaveRoomForAllPairs)
 {
 	// Pairs begin and end their rest all the time, and as long as nobody changes contacts nothing is allocated for them: columns stay where they are.
 	BlockAssembly                   a = heap(12);
@@ -211,7 +211,7 @@ TEST(FreeContacts, ColumnsHaveRoomForAllPairs)
 	EXPECT_GT(grown, 0);
 }
 
-TEST(FreeContacts, ContinuesFromWhatIsSaved)
+TEST(ContactColumns, ContinuesFromWhatIsSaved)
 {
 	// What AssemblyArchive keeps is enough: the rest is computed again, and the run goes on with the same bits.
 	BlockAssembly     a     = heap(8);

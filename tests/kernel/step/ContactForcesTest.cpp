@@ -27,7 +27,7 @@ Real roughness(const BlockAssembly& start, const std::function<Vec2(Real)>& path
 
 } // namespace
 
-TEST(FreeContacts, AreasAddUp)
+TEST(ContactForces, AreasAddUp)
 {
 	// A box on a floor of five blocks of unequal widths, and the box's own bottom in three edges: the areas are those of the
 	// bottom, 2 x T. What is lost at the sharp corners of the floor's blocks is of the order of the depth.
@@ -49,7 +49,7 @@ TEST(FreeContacts, AreasAddUp)
 	EXPECT_NEAR(contactForce(a, 5).x(), 0, 1e6 * d * 10 * d);
 }
 
-TEST(FreeContacts, ConformingJointGivesThePointLaw)
+TEST(ContactForces, ConformingJointGivesThePointLaw)
 {
 	// Two blocks pressed together and sheared, once as a joint of point contacts without strength, once as free contact.
 	// Compressed by un/L ~ 1e-6 and tilted as little: what differs is of the order of these.
@@ -88,7 +88,7 @@ TEST(FreeContacts, ConformingJointGivesThePointLaw)
 		EXPECT_LT((bonded.forces.nodal[n] - free.forces.nodal[n]).norm(), 1e-5 * scale) << n;
 }
 
-TEST(FreeContacts, RaisedEdgesHaveThePotentialsForces)
+TEST(ContactForces, RaisedEdgesHaveThePotentialsForces)
 {
 	// Asperities far higher than any, so that their lever counts: normal forces against differences of the energy, and what friction
 	// takes from the blocks against what its springs hold.
@@ -153,7 +153,7 @@ TEST(FreeContacts, RaisedEdgesHaveThePotentialsForces)
 	EXPECT_NEAR(taken, -held, 1e-10 * held);
 }
 
-TEST(FreeContacts, MomentaAreKept)
+TEST(ContactForces, MomentaAreKept)
 {
 	// Three blocks without loads, spinning and rubbing: momentum and angular momentum to 1e-10 of their turnover.
 	std::mt19937  random(3);
@@ -181,7 +181,7 @@ TEST(FreeContacts, MomentaAreKept)
 	EXPECT_LT(std::abs(L1 - L0), 1e-10 * scale);
 }
 
-TEST(FreeContacts, ForcesHaveNoJumps)
+TEST(ContactForces, ForcesHaveNoJumps)
 {
 	// Swept over a corner, an uneven floor of one block, and a floor of several blocks with steps: the largest change of force from
 	// one step to the next halves with the step. A jump would stay.
@@ -218,7 +218,7 @@ TEST(FreeContacts, ForcesHaveNoJumps)
 	}
 }
 
-TEST(FreeContacts, SpinningTogetherMakesNoSlip)
+TEST(ContactForces, SpinningTogetherMakesNoSlip)
 {
 	// Two rigid blocks, 1e-3 into each other, turn by ten turns as one, in coarse steps: slip of 1e4 steps' rounding only. Without
 	// the frame's own turning it would reach the friction limit, 5.8e-4, after a tenth of a turn.
@@ -240,7 +240,7 @@ TEST(FreeContacts, SpinningTogetherMakesNoSlip)
 	EXPECT_LT(most, 1e4 * 10 * eps);
 }
 
-TEST(FreeContacts, StiffnessIsBounded)
+TEST(ContactForces, StiffnessIsBounded)
 {
 	// Heaps in any state: the largest eigenvalue of M^-1 K, from finite differences of the forces with friction sticking, must not exceed
 	// what nodalStiffness promises: omega dt <= 2 at the stable step. Rigid floor, soft zones so that contacts dominate. Depths stay

@@ -3,7 +3,7 @@
 
 using namespace contacts;
 
-TEST(FreeContacts, NothingHappensWithoutThem)
+TEST(ContactSearch, NothingHappensWithoutThem)
 {
 	BlockAssembly a = twoBlocks(elasticJoint(1e9, 5e8));
 	computeForces(a);
@@ -11,7 +11,7 @@ TEST(FreeContacts, NothingHappensWithoutThem)
 	EXPECT_EQ(contactOf(a, 0, 1), -1);
 }
 
-TEST(FreeContacts, OnlyNearBlocksGetAContact)
+TEST(ContactSearch, OnlyNearBlocksGetAContact)
 {
 	BlockAssembly a = scene();
 	addFan(a, box(0, 0, 1, 1)), addFan(a, box(1.01, 0.3, 1, 1)), addFan(a, box(2.6, 0, 1, 1));
@@ -32,7 +32,7 @@ TEST(FreeContacts, OnlyNearBlocksGetAContact)
 	EXPECT_EQ(a.contacts.looks, 1); // nothing has moved
 }
 
-TEST(FreeContacts, MaterialsDecideOnProperties)
+TEST(ContactSearch, MaterialsDecideOnProperties)
 {
 	// Three materials, all pairs but one of them known, either way round.
 	BlockAssembly a = scene();
@@ -52,7 +52,7 @@ TEST(FreeContacts, MaterialsDecideOnProperties)
 	EXPECT_EQ(a.joints.kindOfMaterials(2, 1), 0);
 }
 
-TEST(FreeContacts, ABlockThatIsAddedLaterIsSeen)
+TEST(ContactSearch, ABlockThatIsAddedLaterIsSeen)
 {
 	BlockAssembly a = scene();
 	addFan(a, box(0, 0, 1, 1));
@@ -65,7 +65,7 @@ TEST(FreeContacts, ABlockThatIsAddedLaterIsSeen)
 	EXPECT_NEAR(contactForce(a, 1).x(), 1e6 * 1e-4 * 0.7, 0.01 * 70); // kn d times the overlap
 }
 
-TEST(FreeContacts, PairsAreFoundInTimeAndForgottenWhenFar)
+TEST(ContactSearch, PairsAreFoundInTimeAndForgottenWhenFar)
 {
 	// A box comes down from out of reach at 2 m/s: its contact is there before it touches, and gone when it is lifted again.
 	BlockAssembly a = scene();
@@ -91,7 +91,7 @@ TEST(FreeContacts, PairsAreFoundInTimeAndForgottenWhenFar)
 	EXPECT_TRUE(std::all_of(a.state.contacts.begin(), a.state.contacts.end(), [](const FreeContact& c) { return c.edges.empty(); }));
 }
 
-TEST(FreeContacts, VelocitiesTellHowFarThingsHaveGone)
+TEST(ContactSearch, VelocitiesTellHowFarThingsHaveGone)
 {
 	// Where nobody else moves grid points, their velocities bound how far they have gone, and positions are compared only now and then. The
 	// same contacts are found in the same steps.

@@ -114,7 +114,7 @@ TEST(OwnLaw, SofteningBarOfDeformableBlocks)
 	Real peak     = 0;
 	for (int i = 0; i < int(steps); ++i) {
 		blocks::computeForces(a, LinearSoftening { w }, dt);
-		integrate(a, damping, dt, i * dt);
+		move(a, damping, dt, i * dt);
 		const Real u = a.state.groups[1].travelled - a.state.groups[1].velocity * dt, force = a.state.groups[1].force; // both of this step's forces
 		peak              = std::max(peak, force);
 		const Real atPeak = e + strength * flexibility;

@@ -32,7 +32,7 @@ std::vector<Vec2> forcesAtRest(BlockAssembly& a)
 
 } // namespace
 
-TEST(FreeContacts, BrokenSegmentsAreReleasedWithoutAJump)
+TEST(ReleaseOfJoints, BrokenSegmentsAreReleasedWithoutAJump)
 {
 	// Pressed and sheared until the joint slides; the step in which its segments become free pairs must not change the forces.
 	JointParams joint = elasticJoint(1e9, 4e8);
@@ -64,7 +64,7 @@ TEST(FreeContacts, BrokenSegmentsAreReleasedWithoutAJump)
 	EXPECT_NEAR(f.dot(along) / (0.7 * Vec2(0.3, 0.8).norm()), 500 + 0.5 * 1000, 1);
 }
 
-TEST(FreeContacts, JointsThatHoldAtOneEndStayJoints)
+TEST(ReleaseOfJoints, JointsThatHoldAtOneEndStayJoints)
 {
 	// Pressed, and broken at one of its ends: as a free contact it would lose what holds at the other one.
 	JointParams joint = elasticJoint(1e9, 4e8);
@@ -83,7 +83,7 @@ TEST(FreeContacts, JointsThatHoldAtOneEndStayJoints)
 	EXPECT_TRUE(a.state.released[0]);
 }
 
-TEST(FreeContacts, DilatedJointsAreReleasedWithoutAJump)
+TEST(ReleaseOfJoints, DilatedJointsAreReleasedWithoutAJump)
 {
 	// As above, with a joint that dilates for 2e-6 m: it stays a joint while it does, and what it was raised by stays for good.
 	JointParams joint = elasticJoint(1e9, 4e8);
@@ -128,7 +128,7 @@ TEST(FreeContacts, DilatedJointsAreReleasedWithoutAJump)
 	}
 }
 
-TEST(FreeContacts, TornApartAndPushedTogetherAgain)
+TEST(ReleaseOfJoints, TornApartAndPushedTogetherAgain)
 {
 	// Two blocks with a strong joint between them are pulled apart and, with a shift, pushed together again: they meet with
 	// what is left, kn and the residual friction, on the area that is left.
@@ -165,7 +165,7 @@ TEST(FreeContacts, TornApartAndPushedTogetherAgain)
 	EXPECT_NEAR(-f.x() / f.y(), 0.3, 0.003);
 }
 
-TEST(FreeContacts, ReleasedAndIntactSegmentsShareAnInterface)
+TEST(ReleaseOfJoints, ReleasedAndIntactSegmentsShareAnInterface)
 {
 	// A joint of three segments, the middle one broken: it alone becomes a free pair, neither forces nor areas change.
 	JointParams joint    = elasticJoint(1e9, 5e8);
@@ -195,7 +195,7 @@ TEST(FreeContacts, ReleasedAndIntactSegmentsShareAnInterface)
 		EXPECT_LT((a.forces.nodal[n] - before[n]).norm(), 1e-5 * scale);
 }
 
-TEST(FreeContacts, PartingSetsFreeWhatTheSpringsHeld)
+TEST(ReleaseOfJoints, PartingSetsFreeWhatTheSpringsHeld)
 {
 	// Two rigid boxes, sheared by s at depth d with residual cohesion, in which nothing slides: 2 x A ks s^2/2 with 2 A = 0.8 x 0.5. Then
 	// they are parted in one step: all that the shear springs held counts as friction, and nothing is held any more.

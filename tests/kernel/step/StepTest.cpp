@@ -409,7 +409,7 @@ TEST(FarFromTheOrigin, EveryBitIsTheSame)
 	for (int i = 0; i < 1000; ++i) {
 		for (BlockAssembly* a : { &here, &there }) {
 			blocks::computeForces(*a, Brittle {}, dt, true);
-			integrate(*a, damping, dt, i * dt, true);
+			move(*a, damping, dt, i * dt, true);
 		}
 		touched |= contactEnergy(there) > 0;
 		ASSERT_TRUE(here.state.displacement == there.state.displacement) << "step " << i;

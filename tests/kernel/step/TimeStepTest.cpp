@@ -46,7 +46,7 @@ Real excursion(BlockAssembly a, Damping damping, Real dt, int steps)
 		}
 	for (int i = 0; i < steps; ++i) {
 		computeForces(a);
-		integrate(a, damping, dt, i * dt);
+		move(a, damping, dt, i * dt);
 	}
 	Real most = 0;
 	for (int n = 0; n < a.nodeCount(); ++n)
@@ -161,7 +161,7 @@ TEST(TimeStep, LocalDampingLowersTheLimit)
 			Real most               = 0;
 			for (int i = 0; i < 120; ++i) {
 				computeForces(b);
-				integrate(b, local, dt, i * dt);
+				move(b, local, dt, i * dt);
 				most = std::max(most, std::abs(b.state.displacement[2].y()));
 			}
 			EXPECT_EQ(most > 1, part > 1);

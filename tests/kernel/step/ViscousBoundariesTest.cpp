@@ -76,16 +76,9 @@ Real comesBack(int zones, int along)
 	none.kind = Damping::Kind::none;
 	for (int i = 0; i * dt < 4 * zones / c; ++i) {
 		computeForces(a);
-		integrate(a, none, dt, i * dt);
+		move(a, none, dt, i * dt);
 	}
 	return fastest(a, along) / start;
-}
-
-Damping damped(Damping::Kind kind)
-{
-	Damping d;
-	d.kind = kind;
-	return d;
 }
 
 } // namespace
@@ -123,7 +116,7 @@ TEST(ViscousBoundaries, AnIncomingWaveIsDoubledAtTheSurface)
 	Real      worst = 0, most = 0, energy = 0;
 	for (int i = 0; i * dt < span + 3 * length / c; ++i) {
 		blocks::computeForces(a, Brittle {}, dt, true);
-		const StepWork w = integrate(a, none, dt, i * dt, true);
+		const StepWork w = move(a, none, dt, i * dt, true);
 		const Real     t = (i + 0.5) * dt, expected = 2 * 0.01 * packet((t - 40 / c) * c - 1.5 * length, length);
 		worst  = std::max(worst, std::abs(a.state.velocity[top].x() - expected));
 		most   = std::max(most, std::abs(expected));
@@ -164,7 +157,7 @@ TEST(ViscousBoundaries, AccountsBalance)
 		for (int i = 0; i < 400; ++i) {
 			blocks::computeForces(a, Brittle {}, dt, true);
 			const Real     stored = specimens::storedEnergy(a), loads = loadWork(a);
-			const StepWork w = integrate(a, damping, dt, i * dt, true);
+			const StepWork w = move(a, damping, dt, i * dt, true);
 			booked += pending + w.dampingBefore;
 			pending         = w.dampingAfter;
 			const auto& f   = a.state.further;
@@ -201,7 +194,7 @@ TEST(ViscousBoundaries, LimitOfTheStepStays)
 			Damping none = damped(Damping::Kind::none);
 			for (int i = 0; i < 1000; ++i) {
 				computeForces(b);
-				integrate(b, none, share * limit, i);
+				move(b, none, share * limit, i);
 			}
 			Real most = 0;
 			for (const Vec2& x : b.state.velocity)
@@ -295,7 +288,7 @@ TEST(StiffnessDamping, FirstModeDecaysAsBetaOmegaHalf)
 		const int  steps = int(std::lround(periods * 2 * M_PI / (omega * std::sqrt(1 - xi * xi)) / dt));
 		for (int i = 0; i < steps; ++i) {
 			computeForces(a);
-			integrate(a, none, dt, i * dt);
+			move(a, none, dt, i * dt);
 		}
 		const Real decay = std::log(start / amplitude());
 		EXPECT_NEAR(decay, xi / std::sqrt(1 - xi * xi) * 2 * M_PI * periods, 0.01 * xi * 2 * M_PI * periods);
@@ -321,7 +314,7 @@ TEST(StiffnessDamping, BoundsTheStep)
 			Damping none = damped(Damping::Kind::none);
 			for (int i = 0; i < 600; ++i) {
 				computeForces(b);
-				integrate(b, none, dt, i);
+				move(b, none, dt, i);
 			}
 			Real sum = 0;
 			for (const Vec2& x : b.state.velocity)
@@ -345,7 +338,7 @@ TEST(StiffnessDamping, AccountsBalance)
 	for (int i = 0; i < 600; ++i) {
 		blocks::computeForces(a, Brittle {}, dt, true);
 		const Real     stored = specimens::storedEnergy(a), loads = loadWork(a);
-		const StepWork w   = integrate(a, none, dt, i * dt, true);
+		const StepWork w   = move(a, none, dt, i * dt, true);
 		const Real     sum = stored + w.kinetic + a.state.further.stiffness - groupWork(a) - loads;
 		if (i == 0) first = sum;
 		worst    = std::max(worst, std::abs(sum - first));

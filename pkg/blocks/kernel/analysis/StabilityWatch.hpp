@@ -43,7 +43,6 @@ public:
 	/// Puts the last good state back; the step it belongs to, or -1 if there was none.
 	long restore(BlockAssembly&) const;
 	Real goodTime() const { return when; }
-	long goodStep() const { return goodAt; }
 	bool started() const { return begun; }
 
 private:

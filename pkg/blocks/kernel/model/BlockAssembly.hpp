@@ -9,7 +9,7 @@
 /// Everything hot, in flat arrays: one BlockAssembly holds all blocks of a scene, split by who changes it.
 namespace blocks {
 
-/// Loads and what follows from the groups.
+/// Loads, viscous boundaries, damping proportional to stiffness, and mobility, which follows from the groups.
 struct Supports {
 	std::vector<Vec2> load;     ///< dead load, gravity included; empty if there is none [N]
 	std::vector<Vec2> mobility; ///< 1 / inertia, and 0 where motion is prescribed [1/kg]
@@ -147,6 +147,9 @@ private:
 
 /// In place of a kind of joint: the joint is a free contact; the joints of a batch are of several kinds.
 constexpr int releasedKind = -1, mixedKinds = -2;
+
+/// The pair of bonded blocks, first < second, or -1.
+int pairOf(const BlockAssembly&, const std::array<int, 2>& blocks);
 
 /// Whether the edges of a joint, which ran against each other when it was bonded, have turned by more than a right angle.
 bool edgesTurned(const BlockAssembly&, int joint);

@@ -85,6 +85,13 @@ void BlockAssembly::rebuildJoints()
 	}
 }
 
+int pairOf(const BlockAssembly& a, const std::array<int, 2>& blocks)
+{
+	const auto& pairs = a.joints.pairs;
+	const auto  at    = std::lower_bound(pairs.begin(), pairs.end(), blocks, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
+	return at == pairs.end() || at->block != blocks ? -1 : int(at - pairs.begin());
+}
+
 bool edgesTurned(const BlockAssembly& a, int joint)
 {
 	const auto& node = a.joints.segments[joint].node;

@@ -1,7 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
 #include <blocks/kernel/model/EdgeShapes.hpp>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -64,13 +63,6 @@ void makeContacts(BlockAssembly& a, const std::vector<std::array<int, 2>>& wante
 		++made;
 	}
 	if (made > 0) sortContacts(a);
-}
-
-int pairOf(const BlockAssembly& a, const std::array<int, 2>& blocks)
-{
-	const auto& pairs = a.joints.pairs;
-	const auto  at    = std::lower_bound(pairs.begin(), pairs.end(), blocks, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
-	return at == pairs.end() || at->block != blocks ? -1 : int(at - pairs.begin());
 }
 
 int contactOf(const BlockAssembly& a, int block1, int block2)

@@ -130,9 +130,6 @@ inline std::array<int, 2> ordered(int block1, int block2) { return { std::min(bl
 /// The contact of two blocks, or -1.
 int contactOf(const BlockAssembly&, int block1, int block2);
 
-/// The pair of bonded blocks, first < second, or -1.
-int pairOf(const BlockAssembly&, const std::array<int, 2>& blocks);
-
 /// Which pairs touch is not known any more; the next step looks at all of them.
 void forgetActive(FreeContact&);
 

@@ -170,9 +170,7 @@ std::vector<Unjoined> unjoinedBlocks(const BlockAssembly& a, Real tolerance)
 {
 	std::vector<Unjoined> list;
 	for (const Segment& g : detectSome(a, tolerance, edgesWithRoom(a, tolerance))) {
-		const auto joined = std::lower_bound(
-			a.joints.pairs.begin(), a.joints.pairs.end(), g.block, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
-		if (joined != a.joints.pairs.end() && joined->block == g.block) continue;
+		if (pairOf(a, g.block) >= 0) continue;
 		if (list.empty() || list.back().block != g.block) list.push_back({ g.block, std::numeric_limits<Real>::infinity() });
 		for (int k : { 0, 1 }) {
 			const Vec2 first = a.position(g.node[0]) + g.s1[k] * a.between(g.node[0], g.node[1]);

@@ -2,7 +2,7 @@
 #pragma once
 #include <blocks/kernel/model/BlockAssembly.hpp>
 
-/// The step of free contacts; sumForces adds the forces.
+/// The step of free contacts; the sweep adds the forces (Sweep.hpp).
 namespace blocks {
 
 /// What rules the contact: validated joint parameters; only kn, ks and the residual values count.

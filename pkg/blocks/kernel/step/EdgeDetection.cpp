@@ -31,10 +31,9 @@ namespace {
 std::vector<std::array<int, 2>> edgesOfJoints(const BlockAssembly& a, const std::array<int, 2>& blocks, bool releasedToo)
 {
 	std::vector<std::array<int, 2>> list;
-	const auto                      pair = std::lower_bound(
-                a.joints.pairs.begin(), a.joints.pairs.end(), blocks, [](const Pair& p, const std::array<int, 2>& key) { return p.block < key; });
-	if (pair == a.joints.pairs.end() || pair->block != blocks) return list;
-	for (int s = pair->first; s < pair->last; ++s)
+	const int                       pair = pairOf(a, blocks);
+	if (pair < 0) return list;
+	for (int s = a.joints.pairs[pair].first; s < a.joints.pairs[pair].last; ++s)
 		if (releasedToo || !a.state.released[s]) list.push_back(edgesOf(a, a.joints.segments[s]));
 	std::sort(list.begin(), list.end());
 	return list;

@@ -1,6 +1,5 @@
 // yade-blocks, GPL-2.0-or-later
 #include <algorithm>
-#include <blocks/kernel/model/Outline.hpp>
 #include <blocks/kernel/step/ContactResults.hpp>
 #include <blocks/kernel/step/EdgeDetection.hpp>
 #include <blocks/kernel/step/Paths.hpp>

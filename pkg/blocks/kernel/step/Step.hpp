@@ -5,7 +5,8 @@
 #include <blocks/kernel/step/Contacts.hpp>
 #include <blocks/kernel/step/Sweep.hpp>
 
-/// A step: forces from where everything is, then motion from the forces. Engines, tests, benchmarks and the elastic jump all call this.
+/// A step: forces from where everything is (`BlockLoop` calls this half), then motion from the forces (`BlockMotion`). Tests, benchmarks, the fuzz and the
+/// elastic jump call the same functions.
 namespace blocks {
 
 /// Forces of joints, whose stresses are in the state already, of contacts, zones and loads.
@@ -38,6 +39,13 @@ template <class Law> void computeForces(BlockAssembly& a, const Law& law, Real d
 inline StepWork move(BlockAssembly& a, const Damping& damping, Real dt, Real time, bool account = false, int threads = 1)
 {
 	return integrate(a, damping, dt, time, account, threads);
+}
+
+/// A whole step.
+template <class Law> StepWork takeStep(BlockAssembly& a, const Law& law, const Damping& damping, Real dt, Real time, bool account = false, int threads = 1)
+{
+	computeForces(a, law, dt, account, threads);
+	return move(a, damping, dt, time, account, threads);
 }
 
 } // namespace blocks

@@ -7,7 +7,7 @@
 namespace blocks {
 namespace {
 
-	/// Mean velocity of a block's grid points, and the most by which one of them differs from another block's mean [m/s].
+	/// Mean velocity of a block's grid points [m/s].
 	Vec2 meanVelocity(const BlockAssembly& a, int block)
 	{
 		Vec2 sum = Vec2::Zero();
@@ -15,6 +15,7 @@ namespace {
 			sum += a.state.velocity[n];
 		return sum / (a.mesh.firstNode[block + 1] - a.mesh.firstNode[block]);
 	}
+	/// The most by which the velocity of one of a block's grid points differs from this one [m/s].
 	Real fastest(const BlockAssembly& a, int block, const Vec2& against)
 	{
 		Real square = 0;
