@@ -127,7 +127,7 @@ def test_theSceneAsYadeShowsIt():
 		assert (first, last) == (m.firstNode[i], m.firstNode[i + 1]) and b.shape.zones == (m.firstZone[i], m.firstZone[i + 1])
 		assert b.state.mass == pytest.approx(m.mass[first:last].sum(), rel=1e-14)
 		weights = m.mass[first:last] / m.mass[first:last].sum()
-		np.testing.assert_allclose(np.array(b.state.pos), [*(weights @ m.position[first:last]), 0], atol=1e-17 * 20) # 20 roundings of 0.04 m
+		np.testing.assert_allclose(np.array(b.state.pos), [*(weights @ m.position[first:last]), 0], rtol=0, atol=1e-17 * 20) # 20 roundings of 0.04 m
 		np.testing.assert_allclose(np.array(b.shape.force), m.force[first:last].sum(axis=0), atol=1e-13 * abs(m.force).max())
 		edges = m.edgeNodes[m.firstEdge[i]:m.firstEdge[i + 1], 0]
 		assert np.array_equal(np.array(b.shape.outline), m.position[edges])
