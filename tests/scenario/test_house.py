@@ -1,5 +1,6 @@
 # yade-blocks, GPL-2.0-or-later
 """The shape of the house: dependencies point one way."""
+import fnmatch
 import re
 import shutil
 import subprocess
@@ -81,3 +82,14 @@ def test_scriptsSayWhichPackagesTheyNeed(path):
 	wanted = {f'python3-{package}' for name, package in needed.items() if re.search(rf'\b{name}\b', imports)}
 	said = re.findall(r'\A#.*\n# needs: (.*)', text)
 	assert wanted <= set(' '.join(said).split())
+
+
+def test_breakagesNameTestsThatExist():
+	"""Every part of a filter, and every file; what is noticed through one part would hide that another is gone."""
+	found = re.findall(r'^TEST(?:_P|_F)?\((\w+),\s*(\w+)\)', '\n'.join(path.read_text() for path in (house / 'tests/kernel').rglob('*.cpp')), re.M)
+	kernel, missing = ['.'.join(names) for names in found], []
+	for patch in (house / 'tests/breakages').glob('*.patch'):
+		kind, what = re.search(r'^Test: (\w+) (.*)$', patch.read_text(), re.M).groups()
+		if kind == 'kernel': missing += [(patch.name, part) for part in what.split(':') if not fnmatch.filter(kernel, part)]
+		elif not (house / 'tests/yade' / what.split()[0]).exists(): missing.append((patch.name, what))
+	assert len(kernel) > 300 and not missing
