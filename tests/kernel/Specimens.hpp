@@ -332,7 +332,7 @@ inline MotionGroup pushed(const std::string& name, std::vector<int> dofs, Real f
 	return g;
 }
 
-/// One lopsided zone.
+/// A lopsided triangle in small strain, so that forces are linear to rounding.
 inline BlockAssembly triangle()
 {
 	BlockAssembly a;
@@ -381,6 +381,43 @@ inline void expectRefusal(const std::function<void()>& call, const std::vector<s
 		return;
 	}
 	ADD_FAILURE() << "not refused: " << (parts.empty() ? "" : parts[0]);
+}
+
+/// A point of an edge, as the segment's weights say.
+inline Vec2 host(const BlockAssembly& a, const Segment& g, int side, int k)
+{
+	const Real s = side == 0 ? g.s1[k] : g.s2[k];
+	return (1 - s) * a.position(g.node[2 * side]) + s * a.position(g.node[2 * side + 1]);
+}
+
+/// A stone in large deformation: every node somewhere else, both blocks turned, the joint open and sheared.
+inline void disturb(BlockAssembly& a, Real amount, unsigned seed = 3)
+{
+	std::mt19937                         random(seed);
+	std::uniform_real_distribution<Real> shift(-amount, amount);
+	for (Vec2& x : a.state.displacement) {
+		const Real dx = shift(random), dy = shift(random);
+		x += Vec2(dx, dy);
+	}
+}
+
+/// Joint forces alone on every node.
+inline std::vector<Vec2> jointForces(BlockAssembly& a)
+{
+	computeForces(a);
+	std::vector<Vec2> force(a.nodeCount(), Vec2::Zero());
+	for (size_t i = 0; i < a.joints.segments.size(); ++i)
+		for (int k = 0; k < 4; ++k)
+			force[a.joints.segments[i].node[k]] += forcesOfJoint(a, int(i))[k];
+	return force;
+}
+
+inline BlockAssembly emptyAssembly(Real thickness)
+{
+	BlockAssembly a;
+	a.thickness = thickness;
+	a.addMaterial(stone());
+	return a;
 }
 
 } // namespace specimens

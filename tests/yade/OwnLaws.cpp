@@ -11,8 +11,12 @@ namespace yade {
 class WearLaw : public BlockLaw {
 public:
 	virtual ~WearLaw() = default;
-	vector<string> columns() const override { return { "wear", "slipBefore" }; }
-	void           advance(BlockModel& model, blocks::JointRange range) const override
+	const vector<string>& columns() const override
+	{
+		static const vector<string> names { "wear", "slipBefore" };
+		return names;
+	}
+	void advance(BlockModel& model, blocks::JointRange range) const override
 	{
 		auto&         s    = model.assembly.state;
 		vector<Real>& wear = s.lawColumns["wear"];

@@ -38,6 +38,24 @@ def materials(reset=True, **changes):
 	O.materials.append(BlockMat(label='mortar', **{**mortar, **changes}))
 
 
+def largeCouplet(joints=()):
+	"""More than 6000 zones, enough for two threads; held at the bottom. To be moved at `isOnTop` and inserted."""
+	materials()
+	model = BlockModel(thickness=0.05)
+	model.addVoronoi(rectangle(0, 0.01, 0.1, 0.025), 'mortar', size=1.2e-3)
+	model.addRegion(rectangle(0, 0, 0.1, 0.01), 'unit', zoneSize=5e-3)
+	model.addRegion(rectangle(0, 0.025, 0.1, 0.035), 'unit', zoneSize=5e-3)
+	model.bond(joints)
+	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
+	assert model.zoneCount > 6000 # BlockEngine's threadsFor wants 3000 a thread
+	return model
+
+
+def isOnTop(x, y):
+	"""Grid points on top of a largeCouplet."""
+	return y > 0.035 - 1e-9
+
+
 def couplet(size=6e-3, steps=3000, stroke=0.012e-3, trackEnergy=False, **integrator):
 	"""Two bricks and a layer of Voronoi mortar, pulled apart; joints break from step 1250 on.
 

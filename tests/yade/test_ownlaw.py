@@ -194,16 +194,9 @@ script = '''
 import ownlaws
 from scenes import *
 from yadeblocks.engines import loopList
-materials()
-model = BlockModel(thickness=0.05)
-model.addVoronoi(rectangle(0, 0.01, 0.1, 0.025), 'mortar', size=1.2e-3)
-model.addRegion(rectangle(0, 0, 0.1, 0.01), 'unit', zoneSize=5e-3)
-model.addRegion(rectangle(0, 0.025, 0.1, 0.035), 'unit', zoneSize=5e-3)
-model.bond(glued())
-model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
-model.drive('top', nodesWhere(model, lambda x, y: y > 0.035 - 1e-9), 'xy', velocity=1e-4)
+model = largeCouplet(glued())
+model.drive('top', nodesWhere(model, isOnTop), 'xy', velocity=1e-4)
 model.insert()
-assert model.zoneCount > 6000 # a thread for every 3000
 O.dt, O.engines = 1e-3, loopList(alpha=0.5, rescueFile='')
 O.engines[0].law = WearLaw(w=1e-6)
 O.run(100, True)

@@ -9,17 +9,10 @@ from scenes import *
 script = '''
 from scenes import *
 import hashlib
-materials()
-model = BlockModel(thickness=0.05)
-model.addVoronoi(rectangle(0, 0.01, 0.1, 0.025), 'mortar', size=1.2e-3)
-model.addRegion(rectangle(0, 0, 0.1, 0.01), 'unit', zoneSize=5e-3)
-model.addRegion(rectangle(0, 0.025, 0.1, 0.035), 'unit', zoneSize=5e-3)
-model.bond()
-model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
-model.push('top', nodesWhere(model, lambda x, y: y > 0.035 - 1e-9), 'y', force=4e3, rampTime=0.2) # 0.8 MPa: beyond the strength
+model = largeCouplet()
+model.push('top', nodesWhere(model, isOnTop), 'y', force=4e3, rampTime=0.2) # 0.8 MPa: beyond the strength
 model.gravity((1, -9.81))
 model.insert()
-assert model.zoneCount > 6000
 O.dt, O.engines = 1e-3, engines(glued(), alpha=0.5)
 def digest():
 	return ' '.join(name + ':' + hashlib.sha256(value.tobytes()).hexdigest()[:16] for name, value in state(model).items())
@@ -70,7 +63,7 @@ def scene(native):
 	model.addRegion(rectangle(0, 0.025, 0.1, 0.035), 'unit', zoneSize=5e-3)
 	joints = glued(cohesion=0.3e6)
 	model.bond([] if native else joints)
-	top = nodesWhere(model, lambda x, y: y > 0.035 - 1e-9)
+	top = nodesWhere(model, isOnTop)
 	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
 	model.push('press', top, 'y', force=-4e3, rampTime=0.05) # 0.8 MPa
 	model.drive('top', top, 'x', velocity=5e-4, rampTime=0.05)

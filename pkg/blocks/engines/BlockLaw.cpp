@@ -7,6 +7,12 @@ namespace yade {
 BlockLaw::~BlockLaw() = default;
 NumpyLaw::~NumpyLaw() = default;
 
+const vector<string>& BlockLaw::columns() const
+{
+	static const vector<string> none;
+	return none;
+}
+
 void BlockLaw::advance(BlockModel&, blocks::JointRange) const
 {
 	throw std::runtime_error("BlockLoop.law: " + getClassName() + " has no law; derive from BlockLaw in C++, or use NumpyLaw(function)");

@@ -19,7 +19,7 @@ public:
 
 	/// Names of the columns that it keeps, model.assembly.state.lawColumns[name] in advance(): one number a contact point, 0 when the law first works, part
 	/// of the state from then on.
-	virtual vector<string> columns() const { return {}; }
+	virtual const vector<string>& columns() const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC(BlockLaw, Serializable,
@@ -34,10 +34,10 @@ REGISTER_SERIALIZABLE(BlockLaw);
 class NumpyLaw : public BlockLaw {
 public:
 	virtual ~NumpyLaw();
-	void           advance(BlockModel&, blocks::JointRange) const override;
-	bool           serial() const override { return true; }
-	vector<string> columns() const override { return columnNames; }
-	void           pyHandleCustomCtorArgs(py::tuple&, py::dict&) override;
+	void                  advance(BlockModel&, blocks::JointRange) const override;
+	bool                  serial() const override { return true; }
+	const vector<string>& columns() const override { return columnNames; }
+	void                  pyHandleCustomCtorArgs(py::tuple&, py::dict&) override;
 
 	py::list getColumns() const;
 	void     setColumns(const py::object&);

@@ -16,10 +16,10 @@ namespace {
 			, model(m)
 		{
 		}
-		void                     advance(blocks::BlockAssembly&, blocks::JointRange range) const override { law.advance(model, range); }
-		bool                     serial() const override { return law.serial(); }
-		std::vector<std::string> columns() const override { return law.columns(); }
-		std::string              name() const override { return "BlockLoop.law: " + law.getClassName(); }
+		void                            advance(blocks::BlockAssembly&, blocks::JointRange range) const override { law.advance(model, range); }
+		bool                            serial() const override { return law.serial(); }
+		const std::vector<std::string>& columns() const override { return law.columns(); }
+		std::string                     name() const override { return "BlockLoop.law: " + law.getClassName(); }
 
 	private:
 		const BlockLaw& law;

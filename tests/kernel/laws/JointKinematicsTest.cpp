@@ -5,24 +5,6 @@ using namespace specimens;
 
 namespace {
 
-/// A point of an edge, as the segment's weights say.
-Vec2 host(const BlockAssembly& a, const Segment& g, int side, int k)
-{
-	const Real s = side == 0 ? g.s1[k] : g.s2[k];
-	return (1 - s) * a.position(g.node[2 * side]) + s * a.position(g.node[2 * side + 1]);
-}
-
-/// A stone in large deformation: every node somewhere else, both blocks turned, the joint open and sheared.
-void disturb(BlockAssembly& a, Real amount, unsigned seed = 3)
-{
-	std::mt19937                         random(seed);
-	std::uniform_real_distribution<Real> shift(-amount, amount);
-	for (Vec2& x : a.state.displacement) {
-		const Real dx = shift(random), dy = shift(random);
-		x += Vec2(dx, dy);
-	}
-}
-
 /// As if all joints had been bonded across a gap.
 void bondedAcross(BlockAssembly& a, Real opening, Real slip)
 {
@@ -43,25 +25,6 @@ Real springEnergy(BlockAssembly& a)
 			sum += a.joints.segments[i / 2].area * (j.kn * a.state.opening[i] * a.state.opening[i] + j.ks * a.state.slip[i] * a.state.slip[i]) / 2;
 		}
 	return sum;
-}
-
-/// Joint forces alone on every node.
-std::vector<Vec2> jointForces(BlockAssembly& a)
-{
-	computeForces(a);
-	std::vector<Vec2> force(a.nodeCount(), Vec2::Zero());
-	for (size_t i = 0; i < a.joints.segments.size(); ++i)
-		for (int k = 0; k < 4; ++k)
-			force[a.joints.segments[i].node[k]] += forcesOfJoint(a, int(i))[k];
-	return force;
-}
-
-BlockAssembly emptyAssembly(Real thickness)
-{
-	BlockAssembly a;
-	a.thickness = thickness;
-	a.addMaterial(stone());
-	return a;
 }
 
 } // namespace

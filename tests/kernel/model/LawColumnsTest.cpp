@@ -27,8 +27,8 @@ public:
 			a.state.tau[i]   = p.ks * a.state.slip[i];
 		}
 	}
-	std::vector<std::string> columns() const override { return names; }
-	std::string              name() const override { return "Wear"; }
+	const std::vector<std::string>& columns() const override { return names; }
+	std::string                     name() const override { return "Wear"; }
 
 private:
 	std::vector<std::string> names;

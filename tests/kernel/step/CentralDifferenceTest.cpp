@@ -3,11 +3,6 @@
 
 using namespace specimens;
 
-namespace {
-
-/// A lopsided triangle in small strain, so that forces are linear to rounding.
-} // namespace
-
 TEST(CentralDifference, FollowsItsOwnExactSolution)
 {
 	// In mode phi of frequency omega the scheme's exact solution is x_n = X + phi cos(n theta), sin(theta/2) = omega dt/2.

@@ -5,7 +5,6 @@ using namespace specimens;
 
 namespace {
 
-/// A lopsided triangle in small strain, so that forces are linear to rounding.
 /// One step of node 0's x, alone in its degree of freedom, with force f and velocity v before; mass 1/mobility is set to m.
 Real velocityAfter(Damping damping, Real f, Real v, Real m, Real dt, Real viscosity, StepWork* work)
 {

@@ -3,11 +3,6 @@
 
 using namespace specimens;
 
-namespace {
-
-/// A lopsided triangle in small strain, so that forces are linear to rounding.
-} // namespace
-
 TEST(MotionGroup, SmoothStart)
 {
 	MotionGroup g = driven("g", { 0 }, 3, 2);

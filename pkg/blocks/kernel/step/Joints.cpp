@@ -50,9 +50,15 @@ void updateKinematics(BlockAssembly& a, JointRange range)
 	});
 }
 
+const std::vector<std::string>& JointLawOnRange::columns() const
+{
+	static const std::vector<std::string> none;
+	return none;
+}
+
 void advanceByRanges(BlockAssembly& a, const JointLawOnRange& law, bool account, int threads)
 {
-	a.state.lawColumns.claim(law.name(), law.columns(), a.pointCount());
+	if (law.columns() != a.state.lawColumns.names) a.state.lawColumns.claim(law.name(), law.columns(), a.pointCount());
 	if (account) a.forces.before.take(a.state);
 	const int parts = law.serial() ? 1 : threads;
 	forEachInParallel(parts, parts, [&](int part) {

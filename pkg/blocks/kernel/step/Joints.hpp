@@ -58,7 +58,7 @@ public:
 	/// Whether it wants all joints at once, from one thread.
 	virtual bool serial() const { return false; }
 	/// Names of its columns, a.state.lawColumns[name] in advance(): made of zeros when it first works, part of the state from then on.
-	virtual std::vector<std::string> columns() const { return {}; }
+	virtual const std::vector<std::string>& columns() const;
 	/// What it is called where something is wrong with it.
 	virtual std::string name() const { return "the joint law"; }
 };

@@ -143,11 +143,13 @@ void noteBroken(BlockAssembly& a, std::vector<Joint>& known)
 {
 	const auto& status = a.state.status;
 	const bool  first  = known.size() != status.size();
+	known.resize(status.size());
 	for (size_t batch = 0; batch < a.forces.broke.size(); ++batch) {
 		const size_t from = 2 * batch * Joints::batch, to = std::min(from + 2 * Joints::batch, status.size());
-		if (first || !std::equal(status.begin() + from, status.begin() + to, known.begin() + from)) a.forces.broke[batch] = true;
+		if (!first && std::equal(status.begin() + from, status.begin() + to, known.begin() + from)) continue;
+		a.forces.broke[batch] = true;
+		std::copy(status.begin() + from, status.begin() + to, known.begin() + from);
 	}
-	known = status;
 }
 
 void collectBroken(BlockAssembly& a)

@@ -41,11 +41,4 @@ inline StepWork move(BlockAssembly& a, const Damping& damping, Real dt, Real tim
 	return integrate(a, damping, dt, time, account, threads);
 }
 
-/// A whole step.
-template <class Law> StepWork takeStep(BlockAssembly& a, const Law& law, const Damping& damping, Real dt, Real time, bool account = false, int threads = 1)
-{
-	computeForces(a, law, dt, account, threads);
-	return move(a, damping, dt, time, account, threads);
-}
-
 } // namespace blocks
