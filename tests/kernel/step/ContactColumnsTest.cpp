@@ -1,5 +1,8 @@
 // yade-blocks, GPL-2.0-or-later
 #include <ContactScenes.hpp>
+#include <blocks/kernel/step/CloseRests.hpp>
+#include <blocks/kernel/step/Rests.hpp>
+#include <random>
 
 using namespace contacts;
 
@@ -37,12 +40,12 @@ TEST(ContactColumns, RestingChangesNothing)
 	BlockAssembly     resting = heap(12), restless = resting;
 	const JointParams joint = frictional(2e6, 1e6, 25 * degree);
 	Simulation        s(resting, joint, 0.4), t(restless, joint, 0.4);
-	long              pairs = 0, asleep = 0;
+	long              pairs = 0, asleep = 0, close = 0;
 	for (int i = 0; i < 3000; ++i) {
 		s.steps(1, [&](Real) {
 			for (int c : resting.contacts.order)
 				for (const Rest& rest : std::as_const(resting.state.contacts)[c].rests)
-					++pairs,
+					++pairs, close += rest.until == restsClose,
 						asleep += rest.until != inWork
 						&& rest.until > resting.contacts.odometer.path[resting.state.contacts[c].block[0]]
 								+ resting.contacts.odometer.path[resting.state.contacts[c].block[1]];
@@ -60,6 +63,45 @@ TEST(ContactColumns, RestingChangesNothing)
 	EXPECT_EQ(contactFriction(resting), contactFriction(restless));
 	std::printf("edge pairs asleep in a heap that falls: %.0f %%\n", 100. * asleep / pairs);
 	EXPECT_GT(asleep, pairs / 2);
+	EXPECT_GT(close, pairs / 1000);
+}
+
+TEST(ContactColumns, ThoseThatRestCloseAreAskedAsOneAloneIs)
+{
+	// Corners in the middle of nowhere, which have gone a little less or a little more than the pair is free to: one of A at a time, and the farther one of
+	// B.
+	BlockAssembly a = scene();
+	for (int i = 0; i < RestColumns::size; ++i)
+		addRigid(a, box(3. * i, 0, 1, 1));
+	std::mt19937                         random(7);
+	std::uniform_real_distribution<Real> some(-1, 1);
+	for (int count : { 1, 2, 5, RestColumns::size })
+		for (int round = 0; round < 200; ++round) {
+			RestColumns   columns;
+			std::uint32_t expected = 0;
+			columns.count          = count;
+			for (int lane = 0; lane < count; ++lane) {
+				Rest rest;
+				for (int n = 0; n < 4; ++n) {
+					rest.node[n]                       = 4 * lane + n;
+					a.state.displacement[4 * lane + n] = { some(random), some(random) };
+				}
+				rest.from = movesOf(a, rest.node);
+				Real went[3];
+				for (int k : { 0, 1, 2 }) {
+					const Vec2 more = Vec2(some(random), some(random)) * (round % 4 == k ? 1 : 0.1);
+					a.state.displacement[rest.node[k + 1]] += more;
+					went[k] = more.norm();
+				}
+				const Real all   = went[0] + std::max(went[1], went[2]);
+				const bool stirs = some(random) > 0;
+				rest.free        = all * (stirs ? 1 - 1e-9 : 1 + 1e-9);
+				EXPECT_EQ(leftOf(a, rest) > 0, !stirs);
+				columns.set(lane, 0, 0, rest);
+				expected |= std::uint32_t(stirs) << lane;
+			}
+			EXPECT_EQ(stirring(a, columns), expected);
+		}
 }
 
 TEST(ContactColumns, ColumnsHoldWhatTheStateSays)
@@ -194,6 +236,7 @@ TEST(ContactColumns, ColumnsHaveRoomForAllPairs)
 	BlockAssembly                   a = heap(12);
 	Simulation                      s(a, frictional(2e6, 1e6, 25 * degree), 0.4);
 	std::vector<const EdgeColumns*> at;
+	std::vector<const RestColumns*> closeAt;
 	std::vector<size_t>             used;
 	long                            edition = 0;
 	int                             grown   = 0;
@@ -202,11 +245,12 @@ TEST(ContactColumns, ColumnsHaveRoomForAllPairs)
 		const bool same = std::exchange(edition, a.contacts.columnsOf) == a.contacts.columnsOf;
 		for (size_t run = 0; same && run < at.size(); ++run) {
 			ASSERT_EQ(a.contacts.inWork[run].batches.data(), at[run]) << i;
+			ASSERT_EQ(a.contacts.inWork[run].close.data(), closeAt[run]) << i;
 			grown += a.contacts.inWork[run].batches.size() > used[run];
 		}
-		at.clear(), used.clear();
+		at.clear(), closeAt.clear(), used.clear();
 		for (const EdgesInWork& work : a.contacts.inWork)
-			at.push_back(work.batches.data()), used.push_back(work.batches.size());
+			at.push_back(work.batches.data()), closeAt.push_back(work.close.data()), used.push_back(work.batches.size());
 	}
 	EXPECT_GT(grown, 0);
 }

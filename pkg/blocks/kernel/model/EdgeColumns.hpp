@@ -1,16 +1,13 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
 #include <array>
-#include <blocks/kernel/Types.hpp>
+#include <blocks/kernel/model/RestColumns.hpp>
 #include <vector>
 
 /// Edge pairs that are worked on in every step, side by side: those that touch, and those of which is not known how far they are from it.
 /// What a step needs of them was copied from the State; EdgePair says what it is. It stays from step to step, until somebody else changes a pair or it is
 /// asked anew who rests.
 namespace blocks {
-
-struct EdgePair;
-struct FreeContact;
 
 /// Up to so many edge pairs. Arrays of four belong to the corners a0, a1, b0, b1, arrays of two to the ends of the overlap.
 struct EdgeColumns {
@@ -39,17 +36,24 @@ struct EdgeColumns {
 /// The pairs of a run of contacts.
 struct EdgesInWork {
 	std::vector<EdgeColumns> batches;       ///< in the order of contacts and pairs
+	std::vector<RestColumns> close;         ///< those that rest, but not for long
 	bool                     anew  = true;  ///< whether the columns are to be filled whatever they hold
 	bool                     apart = false; ///< whether some do not touch
 	int                      steps = 0;     ///< since those were asked whether they can rest
-	Real                     until = 0;     ///< no other pair comes to touch before Odometer::most() is this [m]
+	Real                     until = 0;     ///< no pair that is in neither comes to touch before Odometer::most() is this [m]
 
 	/// To be filled anew, from so many pairs at most.
 	void startAnew(size_t pairs)
 	{
-		const size_t wanted = (pairs + EdgeColumns::size - 1) / EdgeColumns::size;
-		if (wanted > batches.capacity()) batches.clear(), batches.reserve(wanted);
+		makeRoom(batches, pairs), makeRoom(close, pairs);
 		anew = true;
+	}
+
+private:
+	template <class Columns> static void makeRoom(std::vector<Columns>& all, size_t pairs)
+	{
+		const size_t wanted = (pairs + Columns::size - 1) / Columns::size;
+		if (wanted > all.capacity()) all.clear(), all.reserve(wanted);
 	}
 };
 
