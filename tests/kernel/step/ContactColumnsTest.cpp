@@ -66,6 +66,35 @@ TEST(ContactColumns, RestingChangesNothing)
 	EXPECT_GT(close, pairs / 1000);
 }
 
+TEST(ContactColumns, WhatRestsCloseIsMetAlone)
+{
+	// A box comes down on another one by a micrometre a step. It rests close; then contacts are worked on one by one, as YADE's InteractionLoop does.
+	const Real        down  = 1e-6;
+	const JointParams joint = frictional(2e6, 1e6, 25 * degree);
+	BlockAssembly     a     = scene();
+	addRigid(a, box(-1, -1, 2, 1));
+	const int upper      = addRigid(a, box(-0.5, 10.5 * down, 1, 1));
+	a.contacts.strangers = true;
+	computeAllForces(a, joint, 0);
+	ASSERT_EQ(a.contacts.order.size(), 1u);
+	setVelocity(a, upper, { 0, -1 });
+	const auto close = [&] {
+		const auto& rests = std::as_const(a.state.contacts)[0].rests;
+		return std::count_if(rests.begin(), rests.end(), [](const Rest& r) { return r.until == restsClose; });
+	};
+	for (int step = 0; step < 5; ++step) {
+		moveBlock(a, upper, { 0, -down });
+		computeAllForces(a, joint, down);
+	}
+	EXPECT_GT(close(), 0);
+	for (int step = 5; step < 12; ++step) {
+		moveBlock(a, upper, { 0, -down });
+		prepareContacts(a, down);
+		advanceContact(a, 0, down);
+		EXPECT_EQ(!std::as_const(a.state.contacts)[0].active.empty(), step >= 10) << step;
+	}
+}
+
 TEST(ContactColumns, ThoseThatRestCloseAreAskedAsOneAloneIs)
 {
 	// Corners in the middle of nowhere, which have gone a little less or a little more than the pair is free to: one of A at a time, and the farther one of
@@ -247,6 +276,16 @@ TEST(ContactColumns, ColumnsHaveRoomForAllPairs)
 			ASSERT_EQ(a.contacts.inWork[run].batches.data(), at[run]) << i;
 			ASSERT_EQ(a.contacts.inWork[run].close.data(), closeAt[run]) << i;
 			grown += a.contacts.inWork[run].batches.size() > used[run];
+		}
+		long rest = 0, columns = 0; // nobody is in them twice, or while he is in work
+		for (int c : a.contacts.order)
+			for (const Rest& r : std::as_const(a.state.contacts)[c].rests)
+				rest += r.until == restsClose;
+		for (const EdgesInWork& work : a.contacts.inWork)
+			for (const RestColumns& c : work.close)
+				columns += c.count;
+		if (same) {
+			ASSERT_EQ(rest, columns) << i;
 		}
 		at.clear(), closeAt.clear(), used.clear();
 		for (const EdgesInWork& work : a.contacts.inWork)
