@@ -49,14 +49,17 @@ namespace {
 
 void BlockCrackRecorder::action()
 {
-	const BlockModel&            model = modelOf(scene).first;
-	const blocks::BlockAssembly& a     = model.assembly;
+	onModel(scene, [&](const BlockModel& model) { look(model); });
+}
+
+void BlockCrackRecorder::look(const BlockModel& model)
+{
+	const blocks::BlockAssembly& a = model.assembly;
 	if (known.size() != a.state.status.size()) { // the first look: what is broken already is no event
 		known.clear();
 		for (blocks::Joint status : a.state.status)
 			known.push_back(int(status));
-		if (!fileName.empty())
-			visibly([&] { addLines(fileName, "step time x y nx ny mode body1 body2 material1 material2 damage name\n", std::ios::trunc); });
+		if (!fileName.empty()) addLines(fileName, "step time x y nx ny mode body1 body2 material1 material2 damage name\n", std::ios::trunc);
 	}
 	bool takenBack = false; // a rescued state is older than what was seen: there are joints that are whole again
 	for (size_t i = 0; i < known.size() && !takenBack; ++i)
@@ -96,7 +99,7 @@ void BlockCrackRecorder::action()
 		     << nameOf(modes[e]) << ' ' << model.firstBody + g.block[0] << ' ' << model.firstBody + g.block[1] << ' ' << labelOf(model, g.block[0])
 		     << ' ' << labelOf(model, g.block[1]) << ' ' << damages[e] << ' ' << columnOf(a.joints.called(points[e] / 2)) << '\n';
 	}
-	visibly([&] { addLines(fileName, file.str(), std::ios::app); });
+	addLines(fileName, file.str(), std::ios::app);
 }
 
 py::list BlockCrackRecorder::events() const

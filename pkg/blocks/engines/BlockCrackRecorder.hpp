@@ -1,12 +1,12 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
-#include <blocks/engines/BlockEngine.hpp>
+#include <blocks/engines/OnBlocks.hpp>
 #include <pkg/common/PeriodicEngines.hpp>
 
 namespace yade {
 
 /// Notes which contact point broke, when, where and how.
-class BlockCrackRecorder : public PeriodicEngine {
+class BlockCrackRecorder : public OnBlocks<PeriodicEngine> {
 public:
 	virtual ~BlockCrackRecorder();
 	void     action() override;
@@ -34,7 +34,7 @@ public:
 	// clang-format on
 
 private:
-	ModelOfScene modelOf;
+	void look(const BlockModel&);
 };
 REGISTER_SERIALIZABLE(BlockCrackRecorder);
 

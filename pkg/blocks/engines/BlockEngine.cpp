@@ -8,16 +8,6 @@ namespace yade {
 
 BlockEngine::~BlockEngine() = default;
 
-std::pair<BlockModel&, bool> ModelOfScene::operator()(const Scene* scene)
-{
-	const auto last = model.lock();
-	if (last && last->isIn(scene)) return { *last, false };
-	const auto& found   = BlockModel::of(scene);
-	const bool  changed = known && found != last;
-	model = found, known = true;
-	return { *found, changed };
-}
-
 void holdBack() { std::this_thread::sleep_for(std::chrono::milliseconds(100)); }
 
 int threadsFor(const BlockModel& model, int ompThreads)
@@ -29,12 +19,7 @@ int threadsFor(const BlockModel& model, int ompThreads)
 
 void BlockEngine::action()
 {
-	visibly([&] {
-		auto [model, changed] = modelOf(scene);
-		if (changed) newScene();
-		model.throwComplaint();
-		step(model);
-	});
+	onModel(scene, [&](BlockModel& model) { step(model); });
 }
 
 YADE_PLUGIN((BlockEngine));

@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/engines/BlockLaw.hpp>
 #include <blocks/views/Numpy.hpp>
+#include <blocks/views/PythonLock.hpp>
 
 namespace yade {
 
@@ -63,10 +64,7 @@ void NumpyLaw::setColumns(const py::object& names)
 
 void NumpyLaw::advance(BlockModel& model, blocks::JointRange) const
 {
-	struct Lock {
-		PyGILState_STATE state = PyGILState_Ensure();
-		~Lock() { PyGILState_Release(state); }
-	} lock;
+	const PythonLock lock;
 	if (function.is_none()) throw std::runtime_error("NumpyLaw.function is None: functions are not saved, give it anew after O.load");
 	auto&    s = model.assembly.state;
 	py::dict columns;

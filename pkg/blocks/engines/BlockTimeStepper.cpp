@@ -7,12 +7,7 @@ BlockTimeStepper::~BlockTimeStepper() = default;
 
 void BlockTimeStepper::computeTimeStep(Scene* ofStep)
 {
-	visibly([&] {
-		auto [model, changed] = modelOf(ofStep);
-		model.throwComplaint();
-		if (changed) length.newScene();
-		stableStep = length.adjust(ofStep, model, safety, quasiStatic, "BlockTimeStepper");
-	});
+	onModel(ofStep, [&](BlockModel& model) { stableStep = length.adjust(ofStep, model, safety, quasiStatic, "BlockTimeStepper"); });
 }
 
 YADE_PLUGIN((BlockTimeStepper));

@@ -1,15 +1,16 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
-#include <blocks/engines/BlockEngine.hpp>
+#include <blocks/engines/OnBlocks.hpp>
 #include <blocks/engines/StepLength.hpp>
 #include <core/TimeStepper.hpp>
 
 namespace yade {
 
-class BlockTimeStepper : public TimeStepper {
+class BlockTimeStepper : public OnBlocks<TimeStepper> {
 public:
 	virtual ~BlockTimeStepper();
 	void computeTimeStep(Scene*) override;
+	void newScene() override { length.newScene(); }
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(BlockTimeStepper, TimeStepper,
@@ -28,8 +29,7 @@ public:
 	// clang-format on
 
 private:
-	ModelOfScene modelOf;
-	StepLength   length;
+	StepLength length;
 };
 REGISTER_SERIALIZABLE(BlockTimeStepper);
 

@@ -5,6 +5,7 @@
 #include <blocks/engines/EngineList.hpp>
 #include <blocks/kernel/Parallel.hpp>
 #include <blocks/views/BlockGeom.hpp>
+#include <blocks/views/PythonLock.hpp>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
 #include <core/Interaction.hpp>
@@ -18,10 +19,7 @@ namespace {
 	/// Whether one of an InteractionLoop's functors is for two blocks.
 	bool stepsBlocks(const Engine& loop)
 	{
-		struct Lock {
-			PyGILState_STATE state = PyGILState_Ensure();
-			~Lock() { PyGILState_Release(state); }
-		} lock;
+		const PythonLock lock;
 		const py::dict   attributes = loop.pyDict();
 		const py::object functors   = py::object(attributes["geomDispatcher"]).attr("functors");
 		for (long i = 0; i < py::len(functors); ++i) {

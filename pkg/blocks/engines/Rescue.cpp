@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/engines/Rescue.hpp>
+#include <blocks/views/PythonLock.hpp>
 #include <cerrno>
 #include <core/Omega.hpp>
 #include <cstring>
@@ -9,11 +10,6 @@
 namespace yade {
 
 namespace {
-	struct Lock {
-		PyGILState_STATE state = PyGILState_Ensure();
-		~Lock() { PyGILState_Release(state); }
-	};
-
 	/// The sentence of the error that Python holds, which is cleared.
 	string sentenceOfPython()
 	{
@@ -28,7 +24,7 @@ namespace {
 string saveScene(const string& file)
 {
 	{
-		const Lock lock;
+		const PythonLock lock;
 		try {
 			const py::object omega = py::import("yade.wrapper").attr("Omega");
 			if (PyObject_HasAttrString(omega.ptr(), "unsealedSave")) {

@@ -2,6 +2,7 @@
 #include <blocks/engines/BlockForces.hpp>
 #include <blocks/engines/BlockIntegrator.hpp>
 #include <blocks/engines/RigidBodies.hpp>
+#include <blocks/views/PythonLock.hpp>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
 #include <cstring>
@@ -74,12 +75,9 @@ const Engine* requireMovers(const Scene* scene, const BlockModel& model)
 
 Real newtonDamping(const Engine& newton)
 {
-	struct Lock {
-		PyGILState_STATE state = PyGILState_Ensure();
-		~Lock() { PyGILState_Release(state); }
-	} lock;
-	const py::dict attributes = newton.pyDict();
-	const Vector3r gravity    = py::extract<Vector3r>(attributes["gravity"]);
+	const PythonLock lock;
+	const py::dict   attributes = newton.pyDict();
+	const Vector3r   gravity    = py::extract<Vector3r>(attributes["gravity"]);
 	if (gravity != Vector3r::Zero())
 		throw std::runtime_error(
 			"NewtonIntegrator.gravity must be zero with blocks, whose grid points it does not move and whose mass may be scaled: give it to "

@@ -34,9 +34,7 @@ void Ip2_BlockMat_BlockMat_JointPhys::go(
 		if (!joint && geom->pair < 0)
 			; // near each other, no more: they may do without until they touch
 		else if (!joint)
-			geom->model->complain(
-				"Ip2_BlockMat_BlockMat_JointPhys.joints has no JointMat for the pair of materials \"" + std::min(a, b) + "\" and \""
-				+ std::max(a, b) + "\", whose blocks touch");
+			geom->model->complain("Ip2_BlockMat_BlockMat_JointPhys.joints has " + noJointFor(a, b) + ", whose blocks touch");
 		else if (geom->pair >= 0)
 			geom->model->setJoint(geom->pair, *joint, jointList);
 		else

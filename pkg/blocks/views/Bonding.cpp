@@ -22,9 +22,7 @@ int BlockModel::bond(const vector<shared_ptr<JointMat>>& list, Real tolerance)
 		for (const auto& [one, other] : touching) {
 			const string &first = materialLabels[one], &second = materialLabels[other];
 			if (!jointBetween(list, first, second))
-				throw std::invalid_argument(
-					"BlockModel.bond: joints has no JointMat for the pair of materials \"" + std::min(first, second) + "\" and \""
-					+ std::max(first, second) + "\", whose blocks touch");
+				throw std::invalid_argument("BlockModel.bond: joints has " + noJointFor(first, second) + ", whose blocks touch");
 		}
 	}
 	for (const auto& joint : list) // a label that no block has is a mistake
@@ -72,8 +70,8 @@ string BlockModel::withoutJoint(int contact) const
 	const blocks::FreeContact& c = assembly.state.contacts[contact];
 	if (c.joint.kn > 0 || c.active.empty()) return "";
 	const string first = materialLabels[assembly.mesh.blockMaterial[c.block[0]]], second = materialLabels[assembly.mesh.blockMaterial[c.block[1]]];
-	return "there is no JointMat for the pair of materials \"" + std::min(first, second) + "\" and \"" + std::max(first, second) + "\", whose blocks "
-		+ std::to_string(c.block[0]) + " and " + std::to_string(c.block[1]) + " touch and would pass through each other";
+	return "there is " + noJointFor(first, second) + ", whose blocks " + std::to_string(c.block[0]) + " and " + std::to_string(c.block[1])
+		+ " touch and would pass through each other";
 }
 
 void BlockModel::requireProperties()

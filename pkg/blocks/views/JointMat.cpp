@@ -75,6 +75,11 @@ const JointMat* jointBetween(const vector<shared_ptr<JointMat>>& list, const str
 	return nullptr;
 }
 
+string noJointFor(const string& material1, const string& material2)
+{
+	return "no JointMat for the pair of materials \"" + std::min(material1, material2) + "\" and \"" + std::max(material1, material2) + "\"";
+}
+
 YADE_PLUGIN((JointMat));
 
 } // namespace yade

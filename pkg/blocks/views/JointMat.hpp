@@ -74,5 +74,7 @@ vector<shared_ptr<JointMat>> checkedJoints(const py::object& list);
 
 /// The one for two materials; null if there is none.
 const JointMat* jointBetween(const vector<shared_ptr<JointMat>>&, const string& material1, const string& material2);
+/// What messages say where there is none.
+string noJointFor(const string& material1, const string& material2);
 
 } // namespace yade

@@ -1,9 +1,11 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
+#include <algorithm>
 #include <array>
 #include <blocks/kernel/laws/EdgeContact.hpp>
 #include <blocks/kernel/laws/JointLaw.hpp>
 #include <limits>
+#include <utility>
 #include <vector>
 
 /// Two blocks that are not joined, and the pairs of their edges.
@@ -43,6 +45,14 @@ struct FreeContact {
 	std::vector<Rest>     rests;            ///< of each of `edges`
 	std::vector<int>      active;           ///< those of `edges` that touch, as of the last step
 	JointParams           joint;            ///< residual values count; kn = 0 until they are known
+
+	/// The pair of these two edges, or none.
+	const EdgePair* find(const std::array<int, 2>& edge) const
+	{
+		const auto at = std::lower_bound(edges.begin(), edges.end(), edge, [](const EdgePair& e, const std::array<int, 2>& k) { return e.edge < k; });
+		return at != edges.end() && at->edge == edge ? &*at : nullptr;
+	}
+	EdgePair* find(const std::array<int, 2>& edge) { return const_cast<EdgePair*>(std::as_const(*this).find(edge)); }
 };
 
 } // namespace blocks

@@ -56,12 +56,10 @@ PointStresses pointStresses(const BlockAssembly& a, int first, int last)
 		const Segment& g       = a.joints.segments[i];
 		const int      contact = contactOf(a, g.block[0], g.block[1]);
 		if (contact < 0) continue; // also of removed blocks, maybe without any contact in the scene
-		const auto  key   = edgesOf(a, g);
-		const auto& edges = a.state.contacts[contact].edges;
-		const auto  at = std::lower_bound(edges.begin(), edges.end(), key, [](const EdgePair& e, const std::array<int, 2>& k) { return e.edge < k; });
-		if (at == edges.end() || at->edge != key || !at->touching) continue;
+		const EdgePair* pair = a.state.contacts[contact].find(edgesOf(a, g));
+		if (!pair || !pair->touching) continue;
 		for (int k : { 0, 1 })
-			out.sigma[2 * (i - first) + k] = at->sigma[k], out.tau[2 * (i - first) + k] = at->tau[k];
+			out.sigma[2 * (i - first) + k] = pair->sigma[k], out.tau[2 * (i - first) + k] = pair->tau[k];
 	}
 	return out;
 }

@@ -76,15 +76,17 @@ namespace {
 		lower(a, any, e, 0, dt);
 	}
 
-	/// Looks for the edge pairs of a contact. Those that it did not have are lowered until they only touch.
-	void detectMore(BlockAssembly& a, FreeContact& c, Real dt)
+	/// Looks for the edge pairs of a contact. Those that it did not have [sorted].
+	std::vector<EdgePair*> detectMore(BlockAssembly& a, FreeContact& c)
 	{
 		std::vector<std::array<int, 2>> known;
 		for (const EdgePair& e : c.edges)
 			known.push_back(e.edge);
 		detectEdges(a, c);
+		std::vector<EdgePair*> more;
 		for (EdgePair& e : c.edges)
-			if (!std::binary_search(known.begin(), known.end(), e.edge)) lowerToTouch(a, e, dt);
+			if (!std::binary_search(known.begin(), known.end(), e.edge)) more.push_back(&e);
+		return more;
 	}
 
 	/// Turns a broken joint into a free edge pair, which takes over its slip. With the joint the other edges of the two blocks come to act, too. They may
@@ -92,41 +94,35 @@ namespace {
 	/// from nowhere. What the joint held and its successors do not hold is the return value [J].
 	Real release(BlockAssembly& a, int joint, int contact, bool isNew, Real dt)
 	{
-		const Segment&    g   = a.joints.segments[joint];
-		const JointParams own = a.joints.of(joint);
+		const Segment&    g = a.joints.segments[joint];
+		const JointParams p = a.joints.of(joint);
 		a.releaseJoint(joint); // from here on it carries nothing
 		FreeContact& c = a.state.contacts[contact];
 		if (isNew || !(c.joint.kn > 0)) c.joint = a.joints.of(joint); // not those of two materials that were never bonded
-		std::vector<std::array<int, 2>> known;
-		for (const EdgePair& e : c.edges)
-			known.push_back(e.edge);
-		detectEdges(a, c);
-		const auto key = edgesOf(a, g);
-		const auto at
-			= std::lower_bound(c.edges.begin(), c.edges.end(), key, [](const EdgePair& e, const std::array<int, 2>& k) { return e.edge < k; });
-		const bool near   = at != c.edges.end() && at->edge == key;
-		Real       normal = 0, shear = 0; // that the joint held [J]
-		for (int p : { 2 * joint, 2 * joint + 1 }) {
-			normal += g.area * a.state.sigma[p] * a.state.sigma[p] / (2 * own.kn);
-			shear += g.area * a.state.tau[p] * a.state.tau[p] / (2 * own.ks);
+		const std::vector<EdgePair*> others = detectMore(a, c);
+		EdgePair* const              own    = c.find(edgesOf(a, g)); // none where it has moved too far
+		Real                         normal = 0, shear = 0;          // that the joint held [J]
+		for (int i : { 2 * joint, 2 * joint + 1 }) {
+			normal += g.area * a.state.sigma[i] * a.state.sigma[i] / (2 * p.kn);
+			shear += g.area * a.state.tau[i] * a.state.tau[i] / (2 * p.ks);
 		}
-		if (near) {
-			at->area   = g.area;
-			at->uplift = (a.state.uplift[2 * joint] + a.state.uplift[2 * joint + 1]) / 2;
-			if (const auto& start = a.joints.inSituOpening; !start.empty()) at->uplift -= (start[joint][0] + start[joint][1]) / 2;
+		if (own) {
+			own->area   = g.area;
+			own->uplift = (a.state.uplift[2 * joint] + a.state.uplift[2 * joint + 1]) / 2;
+			if (const auto& start = a.joints.inSituOpening; !start.empty()) own->uplift -= (start[joint][0] + start[joint][1]) / 2;
 		}
 		for (int k : { 0, 1 }) {
-			const int p = 2 * joint + k;
-			if (near) at->slip[k] = a.state.tau[p] / c.joint.ks, at->sigma[k] = a.state.sigma[p], at->tau[k] = a.state.tau[p];
-			a.state.sigma[p] = a.state.tau[p] = 0;
+			const int i = 2 * joint + k;
+			if (own) own->slip[k] = a.state.tau[i] / c.joint.ks, own->sigma[k] = a.state.sigma[i], own->tau[k] = a.state.tau[i];
+			a.state.sigma[i] = a.state.tau[i] = 0;
 		}
-		const Real atStrength = g.area * (own.tension * own.tension / own.kn + own.cohesion * own.cohesion / own.ks);
+		const Real atStrength = g.area * (p.tension * p.tension / p.kn + p.cohesion * p.cohesion / p.ks);
 		const Real more       = mayGain * std::max(normal, atStrength);
-		Real       lost       = normal + (near ? 0 : shear);
+		Real       lost       = normal + (own ? 0 : shear);
 		for (EdgePair& e : c.edges)
-			if (e.edge == key)
+			if (&e == own)
 				lost -= lower(a, c, e, normal + more, dt);
-			else if (!std::binary_search(known.begin(), known.end(), e.edge))
+			else if (std::binary_search(others.begin(), others.end(), &e))
 				lost -= lower(a, c, e, more, dt);
 		return lost;
 	}
@@ -190,7 +186,8 @@ void loosen(BlockAssembly& a, Real dt)
 	std::vector<std::vector<EdgePair>> edges;
 	for (const auto& key : mayMeet) {
 		if (const int known = contactOf(a, key[0], key[1]); known >= 0)
-			detectMore(a, a.state.contacts[known], dt);
+			for (EdgePair* e : detectMore(a, a.state.contacts[known]))
+				lowerToTouch(a, *e, dt);
 		else if (pairOf(a, key) < 0) { // pairs with joints get a contact when one of these is released
 			FreeContact candidate;
 			candidate.block = key;
