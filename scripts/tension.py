@@ -65,8 +65,10 @@ faster, growth = 20, 1.004 # behind the peak, where joints soften: up to so many
 p = scenario.parameters({
 	**scenario.commonParameters(lloyd=0), **scenario.usualParameters(
 		units='plain', cells='voronoi', edgeSegments=1, brickZone=8e-3, merge=0.2, solver='steps', release='path', jump=True, servo=False
-	), 'size': Key(0.0, 'size of the Voronoi cells; 0: of the case', 'm', (lambda s: 0 <= s < mortarHeight, 'must be smaller than the mortar layer')),
-	'case': Key('TT2', 'properties of brittle joints, see above',
+	), 'size': Key(
+		0.0, 'size of the Voronoi cells; 0: of the case', 'm',
+		(lambda s: 0 <= s < mortarHeight, 'must not be negative, nor as large as the mortar layer')
+	), 'case': Key('TT2', 'properties of brittle joints, see above',
 			rule=tuple(cases)), 'joints': Key('paper', 'brittle joints of the case, or joints that soften', rule=('paper', *softeningSets)),
 	**softening.jointKeys('kn', 'ks', 'tension', 'cohesion', 'friction', 'dilation', 'GfI', 'GfII', 'lastingShare', 'mortarStrengths'), 'alpha': Key(
 		-1.0, 'coefficient of local damping; -1: 0.8, or 0.3 where joints soften', rule=(lambda a: a == -1 or 0 <= a < 1, 'must lie in [0, 1)')
