@@ -67,7 +67,7 @@ p = scenario.parameters({
 		units='plain', cells='voronoi', edgeSegments=1, brickZone=8e-3, merge=0.2, solver='steps', release='path', jump=True, servo=False
 	), 'size': Key(
 		0.0, 'size of the Voronoi cells; 0: of the case', 'm',
-		(lambda s: 0 <= s < mortarHeight, 'must not be negative, nor as large as the mortar layer')
+		(lambda s: 0 <= s < mortarHeight, 'must not be negative and must be smaller than the mortar layer')
 	), 'case': Key('TT2', 'properties of brittle joints, see above',
 			rule=tuple(cases)), 'joints': Key('paper', 'brittle joints of the case, or joints that soften', rule=('paper', *softeningSets)),
 	**softening.jointKeys('kn', 'ks', 'tension', 'cohesion', 'friction', 'dilation', 'GfI', 'GfII', 'lastingShare', 'mortarStrengths'), 'alpha': Key(

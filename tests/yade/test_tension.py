@@ -97,8 +97,8 @@ def test_whatIsPrinted(small):
 
 @pytest.mark.parametrize(
 	'words, line', [(['sice=2e-3'], ['sice', 'did you mean size']), (['size=0.2'], ['tension.size', 'smaller', '0.2']),
-			(['case=TT9'], ['tension.case', 'TT1', 'TT9']), (['tail=1'], ['tension.tail', '(0, 1)', '1.0']),
-			(['joints=measured', 'lastingShare=2'], ['tension.lastingShare', '[0, 1]', '2.0'])]
+			(['size=-2e-3'], ['tension.size', 'negative', '-0.002']), (['case=TT9'], ['tension.case', 'TT1', 'TT9']),
+			(['tail=1'], ['tension.tail', '(0, 1)', '1.0']), (['joints=measured', 'lastingShare=2'], ['tension.lastingShare', '[0, 1]', '2.0'])]
 )
 def test_refused(words, line, tmp_path):
 	code, text, out = tension(tmp_path, *words)
