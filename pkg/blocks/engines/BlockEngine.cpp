@@ -1,14 +1,10 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/engines/BlockEngine.hpp>
-#include <chrono>
 #include <omp.h>
-#include <thread>
 
 namespace yade {
 
 BlockEngine::~BlockEngine() = default;
-
-void holdBack() { std::this_thread::sleep_for(std::chrono::milliseconds(100)); }
 
 int threadsFor(const BlockModel& model, int ompThreads)
 {
