@@ -2,6 +2,7 @@
 #include <blocks/engines/RigidBodies.hpp>
 #include <blocks/engines/StepLength.hpp>
 #include <blocks/kernel/analysis/Energy.hpp>
+#include <blocks/kernel/step/Release.hpp>
 #include <blocks/kernel/step/TimeStep.hpp>
 #include <core/EnergyTracker.hpp>
 #include <iostream>
@@ -50,6 +51,7 @@ Real StepLength::adjust(Scene* scene, BlockModel& model, Real safety, bool quasi
 			std::cerr << "WARN " << engine << ": nothing limits the time step, as no block has zones and none touches another; O.dt stays "
 				  << blocks::shown(scene->dt) << " s unless you set it" << std::endl;
 		}
+		if (a.state.inertia != a.mesh.mass) blocks::askAllWhether(a); // joints stay only with scaled masses
 		a.state.inertia = a.mesh.mass;
 		a.updateMobility();
 		blocks::restoreRigidInertia(a);

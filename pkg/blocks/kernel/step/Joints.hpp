@@ -3,6 +3,7 @@
 #include <blocks/kernel/laws/JointKinematics.hpp>
 #include <blocks/kernel/step/Dissipation.hpp>
 #include <blocks/kernel/step/JointBatch.hpp>
+#include <blocks/kernel/step/Release.hpp>
 #include <type_traits>
 
 /// From the motion of the grid points to the forces of the joints.
@@ -106,17 +107,21 @@ namespace step {
 			yet = beyondCaps(law, a, first, count, b) == 0;
 		}
 		if (listAsking(a, first, count, !yet, b)) return true;
-		for (int n = 0; n < b.asking; ++n)
-			for (int i = b.asks[n], k = 0; k < 2; ++k) {
+		// pairs of one batch may come from several threads
+		auto tell = [&] { __atomic_store_n(&a.forces.broke[first / Joints::batch], char(true), __ATOMIC_RELAXED); };
+		for (int n = 0; n < b.asking; ++n) {
+			const int i = b.asks[n];
+			for (int k = 0; k < 2; ++k) {
 				const int p = 2 * (first + i) + k;
 				if (yet && status[2 * i + k] == Joint::intact && !isBeyond(b, i, k)) continue;
 				const JointStep now = advancePoint(law, a, p, b.opening[k][i], b.slip[k][i]);
 				b.sigma[k][i]       = now.sigma;
 				b.tau[k][i]         = now.tau;
-				if (now.state.status != s.status[p]) // pairs of one batch may come from several threads
-					__atomic_store_n(&a.forces.broke[first / Joints::batch], char(true), __ATOMIC_RELAXED);
+				if (now.state.status != s.status[p]) tell();
 				s.setJoint(p, now.state);
 			}
+			if (a.contacts.wanted && goesFree(a, first + i, { b.opening[0][i], b.opening[1][i] }, { b.slip[0][i], b.slip[1][i] })) tell();
+		}
 		return false;
 	}
 

@@ -13,8 +13,21 @@ namespace {
 	/// A joint dilates until it has slid by its limit slip, or by this share of its length.
 	constexpr Real dilatesFor = 0.25;
 
-	/// What a broken joint waits for before its edges become a free contact.
-	enum class Release { never, later, now };
+	/// When a joint's edges become a free contact: its law will tell (it has to break, or to move on), it has to be asked in every step, or now.
+	enum class Release { whenTold, later, now };
+
+	/// Whether a joint may stay one after it has broken. What was never bonded is contact from the start. With true masses a contact that closes keeps its
+	/// energy only in steps as short as free contacts ask for (see touchStiffness).
+	bool mayStay(const BlockAssembly& a, int joint)
+	{
+		const auto& status   = a.state.status;
+		const bool  bonded   = status[2 * joint] != Joint::unbonded && status[2 * joint + 1] != Joint::unbonded;
+		auto        isScaled = [&](int node) { return a.state.inertia[node] != a.mesh.mass[node]; };
+		return bonded && isScaled(a.joints.node[joint][0]) && isScaled(a.joints.node[joint][2]);
+	}
+
+	std::array<Real, 2> openings(const BlockAssembly& a, int joint) { return { a.state.opening[2 * joint], a.state.opening[2 * joint + 1] }; }
+	std::array<Real, 2> slips(const BlockAssembly& a, int joint) { return { a.state.slip[2 * joint], a.state.slip[2 * joint + 1] }; }
 
 	Release releaseOf(const BlockAssembly& a, int joint)
 	{
@@ -22,14 +35,14 @@ namespace {
 		auto               broken = [&](int i) { return a.state.status[i] != Joint::intact && a.state.status[i] != Joint::softening; };
 		const int          ends   = broken(2 * joint) + broken(2 * joint + 1);
 		if (a.joints.softens(joint)) {
-			if (ends == 0 || a.joints.softeningOf(joint).cap.strength > 0) return Release::never; // free contacts have no cap
+			if (ends == 0 || hasCap(a, joint)) return Release::whenTold;
 			if (edgesPassed(a, joint)) return Release::now; // a fragment turns about an end that still holds, or has slid away from its edge
 			if (ends < 2) return Release::later;
 			const Softened& soft = a.state.softened;
 			for (int i : { 2 * joint, 2 * joint + 1 })
 				if (a.state.status[i] != Joint::unbonded && soft.k[i] < softeningEnd) return Release::later; // some bond is left
 		}
-		if (ends < 2) return Release::never; // until it breaks, which will be noticed
+		if (ends < 2) return Release::whenTold;
 		for (int i : { 2 * joint, 2 * joint + 1 }) {
 			if (a.state.sigma[i] > 0) return Release::later; // residual tension stays with the point law
 			// a joint that goes on dilating stays, too, and one that rests on ends raised by different amounts, which a free contact would level
@@ -37,7 +50,7 @@ namespace {
 			    && std::abs(a.state.slipPlastic[i]) < std::min(p.dilationLimitSlip, dilatesFor * 2 * a.joints.segments[joint].area / a.thickness))
 				return Release::later;
 		}
-		return Release::now;
+		return mayStay(a, joint) && !hasMovedOn(a, joint, openings(a, joint), slips(a, joint)) ? Release::whenTold : Release::now;
 	}
 
 	/// A pair of edges that takes a joint's place may hold so much more than the joint did, by what the joint holds or held when it broke. It is the
@@ -118,20 +131,19 @@ namespace {
 		}
 		const Real atStrength = g.area * (p.tension * p.tension / p.kn + p.cohesion * p.cohesion / p.ks);
 		const Real more       = mayGain * std::max(normal, atStrength);
-		Real       lost       = normal + (own ? 0 : shear);
-		for (EdgePair& e : c.edges)
-			if (&e == own)
-				lost -= lower(a, c, e, normal + more, dt);
-			else if (std::binary_search(others.begin(), others.end(), &e))
-				lost -= lower(a, c, e, more, dt);
-		return lost;
+		Real       left       = normal; // for its successors
+		auto       pass       = [&](EdgePair& e) { left -= lower(a, c, e, std::max(Real(0), left) + more, dt); };
+		if (own) pass(*own);
+		for (EdgePair& e : c.edges) // where a joint has slid over the end of its edge, the next edges bear what it bore there
+			if (&e != own && std::binary_search(others.begin(), others.end(), &e)) pass(e);
+		return left + (own ? 0 : shear);
 	}
 
 } // namespace
 
 void askWhether(BlockAssembly& a, int joint)
 {
-	if (!a.state.released[joint] && releaseOf(a, joint) != Release::never) a.contacts.waiting.push_back(joint);
+	if (!a.state.released[joint] && releaseOf(a, joint) != Release::whenTold) a.contacts.waiting.push_back(joint);
 	if (!a.state.search.loosened[joint] && !isWhole(a, joint)) a.contacts.loosening.push_back(joint);
 }
 
@@ -140,11 +152,15 @@ void noteBroken(BlockAssembly& a, std::vector<Joint>& known)
 	const auto& status = a.state.status;
 	const bool  first  = known.size() != status.size();
 	known.resize(status.size());
+	auto tells = [&](int joint) { return !a.state.released[joint] && goesFree(a, joint, openings(a, joint), slips(a, joint)); };
 	for (size_t batch = 0; batch < a.forces.broke.size(); ++batch) {
 		const size_t from = 2 * batch * Joints::batch, to = std::min(from + 2 * Joints::batch, status.size());
-		if (!first && std::equal(status.begin() + from, status.begin() + to, known.begin() + from)) continue;
-		a.forces.broke[batch] = true;
-		std::copy(status.begin() + from, status.begin() + to, known.begin() + from);
+		if (first || !std::equal(status.begin() + from, status.begin() + to, known.begin() + from)) {
+			a.forces.broke[batch] = true;
+			std::copy(status.begin() + from, status.begin() + to, known.begin() + from);
+		}
+		for (size_t joint = from / 2; joint < to / 2 && !a.forces.broke[batch]; ++joint)
+			a.forces.broke[batch] = tells(int(joint));
 	}
 }
 
@@ -216,17 +232,18 @@ void releaseBroken(BlockAssembly& a, Real dt, bool account)
 	std::vector<int>                now;
 	std::vector<std::array<int, 2>> blocks;
 	std::vector<char>               isFirst; // whether these two blocks have no contact yet
-	for (int joint : f.waiting)
-		if (releaseOf(a, joint) == Release::now) {
-			const auto& two = a.joints.segments[joint].block;
-			isFirst.push_back(contactOf(a, two[0], two[1]) < 0 && (blocks.empty() || blocks.back() != two));
-			now.push_back(joint);
-			blocks.push_back(two);
-		} else
-			f.waiting[kept++] = joint;
+	for (int joint : f.waiting) {
+		const Release when = releaseOf(a, joint);
+		if (when == Release::later) f.waiting[kept++] = joint;
+		if (when != Release::now) continue;
+		const auto& two = a.joints.segments[joint].block;
+		isFirst.push_back(contactOf(a, two[0], two[1]) < 0 && (blocks.empty() || blocks.back() != two));
+		now.push_back(joint);
+		blocks.push_back(two);
+	}
+	f.waiting.resize(kept);
 	if (now.empty()) return;
 	followAll(a);
-	f.waiting.resize(kept);
 	makeContacts(a, blocks);
 	Real lost = 0;
 	for (size_t i = 0; i < now.size(); ++i)

@@ -1,15 +1,54 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
+#include <algorithm>
 #include <blocks/kernel/model/BlockAssembly.hpp>
 
 /// What becomes of joints that have broken, and of the corners that they held.
 namespace blocks {
 
+/// A broken joint stays one until its edges have moved by this share of their common length. Up to there a free contact says the same: it blends its ends over
+/// as much (see EdgeShape::rounding).
+constexpr Real staysFor = 0.02;
+
+/// Whether neither contact point of a joint is bonded any more.
+inline bool isBroken(const BlockAssembly& a, int joint)
+{
+	auto bonded = [](Joint status) { return status == Joint::intact || status == Joint::softening; };
+	return !bonded(a.state.status[2 * joint]) && !bonded(a.state.status[2 * joint + 1]);
+}
+
+/// Whether the contact points of a joint have moved on, by these openings and slips.
+inline bool hasMovedOn(const BlockAssembly& a, int joint, std::array<Real, 2> opening, std::array<Real, 2> slip)
+{
+	Real farthest = 0;
+	for (int k : { 0, 1 }) {
+		if (!a.joints.inSituOpening.empty()) // opened and slid without displacement
+			opening[k] -= a.joints.inSituOpening[joint][k], slip[k] -= a.joints.inSituSlip[joint][k];
+		farthest = std::max({ farthest, std::abs(opening[k]), std::abs(slip[k]) });
+	}
+	return farthest * a.thickness > staysFor * 2 * a.joints.segments[joint].area;
+}
+
+/// Whether a joint is asked in every step whether it is to be released.
+inline bool isWaiting(const BlockAssembly& a, int joint) { return std::binary_search(a.contacts.waiting.begin(), a.contacts.waiting.end(), joint); }
+
+/// A free contact has no cap.
+inline bool hasCap(const BlockAssembly& a, int joint) { return a.joints.anyCap && a.joints.softeningOf(joint).cap.strength > 0; }
+
+/// Whether these openings and slips are news for a joint: it is to be asked, and nobody does yet.
+inline bool goesFree(const BlockAssembly& a, int joint, std::array<Real, 2> opening, std::array<Real, 2> slip)
+{
+	return isBroken(a, joint) && hasMovedOn(a, joint, opening, slip) && !isWaiting(a, joint) && !hasCap(a, joint);
+}
+
 /// Takes note of a joint that is to be released, or lets go of the corners at its ends.
 void askWhether(BlockAssembly&, int joint);
 
-/// Takes note of the batches of joints in which a point has another status than the `known` one, and of all where nothing is known; `known` becomes the
-/// present one. For laws that do not say what they break.
+/// Takes note of all joints: the next step asks which are to be released.
+inline void askAllWhether(BlockAssembly& a) { std::fill(a.forces.broke.begin(), a.forces.broke.end(), char(true)); }
+
+/// Takes note of the batches of joints in which a point has another status than the `known` one or a broken joint has moved on, and of all where nothing is
+/// known; `known` becomes the present one. For laws that do not say what they break.
 void noteBroken(BlockAssembly&, std::vector<Joint>& known);
 
 /// Joints of which a point broke in the last step wait for their release.
