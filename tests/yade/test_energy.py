@@ -116,12 +116,12 @@ def test_balanceWhereScaledMassesGrow():
 	materials()
 	m = column(heights=(0.2, 0.2))
 	m.drive('low', nodesWhere(m, lambda x, y: y < 1e-9), 'xy')
-	m.drive('top', nodesWhere(m, lambda x, y: y > 0.4 - 1e-9), 'y', velocity=1e-3)
+	m.drive('top', nodesWhere(m, lambda x, y: y > 0.4 - 1e-9), 'y', velocity=25e-3)
 	m.insert()
 	O.dt, O.trackEnergy = 1e-3, True
 	O.engines = [BlockContacts(), InsertionSortCollider([Bo1_Block_Aabb()], verletDist=0)] + engines(strong(cohesion=1e4, tension=1e4), damping='local')
 	O.run(400, True)
-	assert (m.segmentArea == 0).all() # broken and released
+	assert (m.segmentArea == 0).all() # broken, opened by 2 % of its length, and released
 	e = energies()
 	assert -e['blockScaling'] > 1e-3 * e['blockKinetic'] > 0
 	turnover = sum(value for value in e.values() if value > 0)

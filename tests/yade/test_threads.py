@@ -66,7 +66,7 @@ def scene(native):
 	top = nodesWhere(model, isOnTop)
 	model.drive('bottom', nodesWhere(model, lambda x, y: y < 1e-9), 'xy')
 	model.push('press', top, 'y', force=-4e3, rampTime=0.05) # 0.8 MPa
-	model.drive('top', top, 'x', velocity=5e-4, rampTime=0.05)
+	model.drive('top', top, 'x', velocity=1e-3, rampTime=0.05)
 	model.gravity((1, -9.81)) # no force begins with zero, from where two summands have no order
 	model.insert()
 	O.trackEnergy = True
@@ -97,7 +97,7 @@ for path in 'flat', 'native':
 
 # Fingerprint of the state in the end, and of the accounts in the steps behind the middle. They change only where CHANGELOG says that bits have moved, as those
 # in test_step.py do.
-golden = ['30b9fa808e3769cb', '1c0ee5409257c4d8']
+golden = ['5cb3af1463e7a7ca', 'd8cae31b66d7e112']
 
 
 @pytest.mark.parametrize('threads', [1, 2])
@@ -109,6 +109,6 @@ def test_goldenFingerprintsOfASceneForTwoThreads(threads, tmp_path):
 	for path, saved, *bits, zones, broken, touching, friction, others in results:
 		assert bits == golden, (path, saved)
 		assert int(zones) >= 6000 # threadsFor in BlockEngine.cpp: a thread for every 3000
-		assert int(broken) > 1000 and int(touching) > 100 and float(friction) > 0
+		assert int(broken) > 1000 and int(touching) > 50 and float(friction) > 0
 		# Of the processor time all threads but one take some 0.4 where the work is shared out, and less than 0.001 where it is not.
 		assert (float(others) > 0.1) == (threads == 2), (path, saved, others)

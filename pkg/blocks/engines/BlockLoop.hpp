@@ -16,7 +16,8 @@ public:
 		"Joints need their properties beforehand, from :yref:`bond<BlockModel.bond>`. The same scene gives the same bits on any number of threads, and "
 		"as with YADE's own InteractionLoop (:yref:`Ig2_Block_Block_BlockGeom`, :yref:`Law2_BlockGeom_JointPhys_MohrCoulomb`, :yref:`BlockForces`).",
 		((bool, contact, false, , "General contact: broken joints become contacts that may slide along edges and past corners, part and meet again, "
-			"with the residual properties; blocks that were never bonded may touch. A scene whose blocks keep their neighbours does without."))
+			"with the residual properties; blocks that were never bonded may touch. With scaled masses a broken joint stays one until its edges have "
+			"moved by 2 % of their length, up to where both say the same. A scene whose blocks keep their neighbours does without."))
 		((shared_ptr<BlockLaw>, law, , , "A joint law of one's own in place of the brittle Mohr-Coulomb one; see :yref:`BlockLaw`."))
 	);
 	// clang-format on

@@ -135,8 +135,8 @@ TEST(StayingJoints, StressesInSituMoveNobody)
 {
 	// Of stiff blocks with a soft joint that has been closed by more than 2 % of its length, in thought.
 	JointParams joint = rubbing();
-	joint.kn = joint.ks = 1e5;
-	BlockAssembly a     = upperOnLower(joint);
+	joint.kn = joint.ks    = 1e5;
+	BlockAssembly a        = upperOnLower(joint);
 	a.joints.inSituOpening = { { -9e-3, -9e-3 } }, a.joints.inSituSlip = { { 0, 0 } };
 	a.state.opening = { -9e-3, -9e-3 };
 	EXPECT_FALSE(hasMovedOn(a, 0, { -9e-3, -9e-3 }, { 0, 0 }));
