@@ -5,6 +5,7 @@
 #include <blocks/engines/EngineList.hpp>
 #include <blocks/kernel/Parallel.hpp>
 #include <blocks/views/BlockGeom.hpp>
+#include <blocks/views/BlockMat.hpp>
 #include <blocks/views/PythonLock.hpp>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>

@@ -1,17 +1,12 @@
 // yade-blocks, GPL-2.0-or-later
-#include <blocks/kernel/analysis/Energy.hpp>
-#include <blocks/kernel/analysis/StabilityWatch.hpp>
-#include <blocks/kernel/geometry/Zoning.hpp>
-#include <blocks/kernel/model/Fingerprint.hpp>
 #include <blocks/kernel/model/Outline.hpp>
 #include <blocks/kernel/step/ContactResults.hpp>
 #include <blocks/kernel/step/Joints.hpp>
 #include <blocks/kernel/step/ZoneForces.hpp>
 #include <blocks/python/ModelPython.hpp>
 #include <blocks/views/Numpy.hpp>
-#include <core/Omega.hpp>
 
-/// The model's arrays and what is measured on them.
+/// The model's arrays.
 namespace yade {
 
 namespace np = boost::python::numpy;
@@ -184,73 +179,26 @@ namespace {
 
 	void dropLawColumns(BlockModel& model) { model.assembly.state.lawColumns = {}; }
 
-	py::dict zoneQuality(const BlockModel& m)
-	{
-		if (m.assembly.zoneCount() == 0) throw std::runtime_error("BlockModel.zoneQuality: the model has no zones yet");
-		const auto q = blocks::quality({ m.assembly.mesh.reference, {}, m.assembly.mesh.zoneNodes });
-		py::dict   out;
-		out["minAngle"] = q.minAngle, out["maxAngle"] = q.maxAngle;
-		out["minArea"] = q.minArea, out["maxArea"] = q.maxArea;
-		out["worstAspect"] = q.worstAspect;
-		return out;
-	}
-
-	string fingerprint(const BlockModel& m)
-	{
-		char text[17];
-		std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(blocks::fingerprint(m.assembly.state)));
-		return text;
-	}
-
 	long snappedBack(const BlockModel& m) { return m.assembly.state.softened.snapped; }
 	int  blockCount(const BlockModel& m) { return m.assembly.blockCount(); }
 	int  nodeCount(const BlockModel& m) { return m.assembly.nodeCount(); }
 	int  zoneCount(const BlockModel& m) { return m.assembly.zoneCount(); }
 	int  contactCount(const BlockModel& m) { return m.assembly.pointCount(); }
-	Real unbalancedRatio(const BlockModel& m, Real floor) { return blocks::unbalancedRatio(m.assembly, floor); }
-	Real unrest(const BlockModel& m, Real floor) { return blocks::unrest(m.assembly, Omega::instance().getScene()->time, floor); }
-
-	void requireSound(const BlockModel& m)
-	{
-		const auto verdict = blocks::StabilityWatch::lookAtEnd(m.assembly);
-		if (!verdict.stable) throw std::runtime_error("unstable, block " + std::to_string(verdict.block) + ": " + verdict.reason);
-	}
-	Real kineticEnergy(const BlockModel& m) { return blocks::kineticEnergy(m.assembly); }
 
 } // namespace
 
 void defineArrays(PythonModel& c)
 {
 	using py::arg;
-	c.def("requireSound",
-	      &requireSound,
-	      "Raises RuntimeError where the motion of a grid point is not a number or a zone is inside out. Runs are looked at "
-	      "by themselves, see BlockMotion.watchPeriod.")
-		.def("unrest",
-	             &unrest,
-	             (arg("floor") = 0.),
-	             "How far the scene is from rest [-]: unbalanced forces by the largest sum of loads, of forces of groups and twice those of contacts, or "
-	             "kinetic energy by that of zones "
-	             "and joints, if this is more. Infinite while a group is within its ramp. floor: least sum of forces that counts [N].")
-		.def("unbalancedRatio",
-	             &unbalancedRatio,
-	             (arg("floor") = 0.),
-	             "Sum of unbalanced |force| over free degrees of freedom (of rigid blocks: of their bodies, without moments) by twice the sum of contact "
-	             "|forces|, the latter at least floor [N]. YADE's utils.unbalancedForce() knows nothing of grid points.")
-		.def("kineticEnergy", &kineticEnergy, "Kinetic energy, with the scaled masses if masses are scaled [J].")
-		.def("freeContacts",
-	             &freeContacts,
-	             "Edges that touch without a bond, as of the last step, as a dictionary of copies, one entry a pair of edges: blocks, the two (n, 2); "
-	             "nodes, the "
-	             "grid points a0, a1 of the first block's edge and b0, b1 of the second's (n, 4); force, on the first block (n, 2) [N]. Empty without "
-	             "general contact.")
+	c.def("freeContacts",
+	      &freeContacts,
+	      "Edges that touch without a bond, as of the last step, as a dictionary of copies, one entry a pair of edges: blocks, the two (n, 2); "
+	      "nodes, the "
+	      "grid points a0, a1 of the first block's edge and b0, b1 of the second's (n, 4); force, on the first block (n, 2) [N]. Empty without "
+	      "general contact.")
 		.def("zoneStress",
 	             py::make_function(&zoneStress),
 	             "Cauchy stress of every zone: sxx, syy, sxy, tension positive; shape (zones, 3) [Pa]. A copy.")
-		.def("zoneQuality",
-	             &zoneQuality,
-	             "Quality of the mesh, a dictionary: minAngle, maxAngle [rad], minArea, maxArea [m2], worstAspect (longest edge by least height, 1 for an "
-	             "equilateral triangle).")
 		.def("cornerTriangles",
 	             &cornerTriangles,
 	             (arg("block")),
@@ -258,10 +206,6 @@ void defineArrays(PythonModel& c)
 	             "points, counter-clockwise, shape (triangles, 3). A copy. "
 	             "Errors: ValueError for a block that is not there.")
 		.def("contactPositions", py::make_function(&contactPositions), "Positions of the contact points, shape (contact points, 2) [m]. A copy.")
-		.def("fingerprint",
-	             &fingerprint,
-	             "16 hexadecimal digits that are the same only for the same bits of the state: motion, joints, contacts, "
-	             "groups, accounts.")
 		.add_property("blockCount", &blockCount, "Number of blocks.")
 		.add_property("nodeCount", &nodeCount, "Number of grid points.")
 		.add_property("zoneCount", &zoneCount, "Number of zones.")

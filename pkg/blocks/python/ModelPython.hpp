@@ -12,6 +12,10 @@ void defineLoads(PythonModel&);
 void defineBoundaries(PythonModel&);
 void defineAnalysis(PythonModel&);
 void defineArrays(PythonModel&);
+void defineMeasures(PythonModel&);
+void defineJointChoice(PythonModel&);
 void defineJoints(PythonModel&);
+void defineBuilding(PythonModel&);
+void defineSaving(PythonModel&);
 
 } // namespace yade

@@ -3,8 +3,7 @@
 
 namespace yade {
 
-Block::~Block()       = default;
-BlockMat::~BlockMat() = default;
+Block::~Block() = default;
 
 const blocks::BlockAssembly& Block::assembly() const
 {
@@ -33,6 +32,6 @@ Vector2r Block::force() const
 py::tuple Block::nodes() const { return py::make_tuple(assembly().mesh.firstNode[index], assembly().mesh.firstNode[index + 1]); }
 py::tuple Block::zones() const { return py::make_tuple(assembly().mesh.firstZone[index], assembly().mesh.firstZone[index + 1]); }
 
-YADE_PLUGIN((Block)(BlockMat));
+YADE_PLUGIN((Block));
 
 } // namespace yade

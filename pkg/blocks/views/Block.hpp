@@ -3,7 +3,6 @@
 #include <blocks/views/BlockModel.hpp>
 #include <core/Dispatching.hpp>
 #include <core/Shape.hpp>
-#include <pkg/common/ElastMat.hpp>
 
 namespace yade {
 
@@ -39,22 +38,5 @@ public:
 	py::tuple zones() const;
 };
 REGISTER_SERIALIZABLE(Block);
-
-/// Elastic material of blocks.
-class BlockMat : public ElastMat {
-public:
-	virtual ~BlockMat();
-
-	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(BlockMat, ElastMat,
-		"Isotropic linear elastic material of deformable blocks: young [Pa], poisson in (-1, 0.5), density [kg/m3]. What happens between blocks is "
-		"said by :yref:`JointMat`.",
-		/*attrs*/,
-		createIndex();
-	);
-	// clang-format on
-	REGISTER_CLASS_INDEX(BlockMat, ElastMat);
-};
-REGISTER_SERIALIZABLE(BlockMat);
 
 } // namespace yade

@@ -6,10 +6,8 @@
 #include <blocks/views/Block.hpp>
 #include <blocks/views/BlockModel.hpp>
 #include <blocks/views/BlockState.hpp>
-#include <blocks/views/Materials.hpp>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
-#include <core/Omega.hpp>
 #include <limits>
 
 namespace yade {
@@ -65,29 +63,6 @@ void BlockModel::throwComplaint()
 	const std::string sentence = std::move(complaint);
 	complaint.clear();
 	throw std::runtime_error(sentence);
-}
-
-blocks::Material materialOf(const BlockModel& model, const std::string& label)
-{
-	const auto known = std::find(model.materialLabels.begin(), model.materialLabels.end(), label);
-	if (known != model.materialLabels.end()) return model.assembly.mesh.materials[known - model.materialLabels.begin()];
-
-	for (const auto& material : Omega::instance().getScene()->materials)
-		if (material->label == label) {
-			const auto* mat = dynamic_cast<const BlockMat*>(material.get());
-			if (!mat) throw std::invalid_argument("material \"" + label + "\" must be a BlockMat, got " + material->getClassName());
-			return { mat->young, mat->poisson, mat->density };
-		}
-	throw std::invalid_argument("no material labelled \"" + label + "\" in O.materials: append a BlockMat(label=\"" + label + "\", ...) first");
-}
-
-int BlockModel::materialIndex(const std::string& label)
-{
-	const auto known = std::find(materialLabels.begin(), materialLabels.end(), label);
-	if (known != materialLabels.end()) return int(known - materialLabels.begin());
-	const int index = assembly.addMaterial(materialOf(*this, label));
-	materialLabels.push_back(label);
-	return index;
 }
 
 void BlockModel::requireFree(const blocks::Polygon& region) const

@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/kernel/analysis/OverlapWatch.hpp>
 #include <blocks/kernel/geometry/Polygon.hpp>
+#include <blocks/kernel/model/JointEdges.hpp>
 #include <blocks/kernel/model/Outline.hpp>
 #include <limits>
 

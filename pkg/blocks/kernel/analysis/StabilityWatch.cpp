@@ -1,6 +1,7 @@
 // yade-blocks, GPL-2.0-or-later
 #include <blocks/kernel/analysis/Energy.hpp>
 #include <blocks/kernel/analysis/StabilityWatch.hpp>
+#include <blocks/kernel/model/JointEdges.hpp>
 #include <blocks/kernel/step/ViscousBoundaries.hpp>
 #include <blocks/kernel/step/ZoneForces.hpp>
 #include <cstring>

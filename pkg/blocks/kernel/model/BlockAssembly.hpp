@@ -1,5 +1,6 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
+#include <blocks/kernel/model/FreeContacts.hpp>
 #include <blocks/kernel/model/Joints.hpp>
 #include <blocks/kernel/model/Mesh.hpp>
 #include <blocks/kernel/model/Parts.hpp>
@@ -150,11 +151,5 @@ constexpr int releasedKind = -1, mixedKinds = -2;
 
 /// The pair of bonded blocks, first < second, or -1.
 int pairOf(const BlockAssembly&, const std::array<int, 2>& blocks);
-
-/// Whether the edges of a joint, which ran against each other when it was bonded, have turned by more than a right angle.
-bool edgesTurned(const BlockAssembly&, int joint);
-
-/// Whether the edges of a joint have turned so, or have slid past each other. The law of a joint means nothing then.
-bool edgesPassed(const BlockAssembly&, int joint);
 
 } // namespace blocks

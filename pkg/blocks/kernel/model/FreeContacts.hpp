@@ -4,7 +4,7 @@
 #include <blocks/kernel/model/ContactList.hpp>
 #include <blocks/kernel/model/EdgeColumns.hpp>
 #include <blocks/kernel/model/JointCorners.hpp>
-#include <cmath>
+#include <blocks/kernel/model/Odometer.hpp>
 #include <vector>
 
 /// Contact of blocks that were never bonded, or whose joints have broken: they slide, part and meet again.
@@ -38,34 +38,6 @@ struct SideForce {
 /// Where the forces of a contact on a block are: room for all its pairs, of which those in work come first.
 struct ForceRange {
 	int first = 0, last = 0;
-};
-
-/// How far blocks that have contacts have gone. Between two moments at which paths were brought up to date, a vertex moves by no more than its block's path
-/// has grown.
-struct Odometer {
-	std::vector<Vec2> seenAt; ///< of grid points, displacements up to which the paths count [m]
-	std::vector<Real> path;   ///< of blocks: the largest move of any of their grid points, summed [m]
-
-	Real longest = 0; ///< the largest moves of all of them, summed [m]
-
-	// ---- what the velocities say since then, for any grid point and along either axis
-	int  steps     = 0; ///< since the paths were brought up to date
-	Real unseen    = 0; ///< it may have gone this far since then [m]
-	Real sinceLook = 0; ///< it may have gone this far since neighbours were last looked for [m]
-	Real fastest   = 0; ///< largest velocity in the last step [m/s]
-
-	/// By how much more two paths may add up to than they do [m].
-	Real unseenOfTwo() const { return 2 * std::sqrt(Real(2)) * unseen; }
-	/// Two paths add up to no more than what they did, and what this has grown by since [m].
-	Real most() const { return 2 * longest + unseenOfTwo(); }
-};
-
-/// When neighbours were last looked for. It decides which contacts there are, and so masses; empty without general contact.
-struct ContactMemory {
-	std::vector<Vec2> detectedAt; ///< displacements at which the edge pairs of the grid point's block were last looked for [m]
-	std::vector<Vec2> lookedAt;   ///< displacements at the last look [m]
-	Real              mayGo = 0;  ///< until a grid point is this far from lookedAt, nobody need look [m]
-	std::vector<char> loosened;   ///< of joints: whether corners know that it is not whole any more
 };
 
 /// By which share of the depth at which their contact is lost two blocks may near each other, in a step.

@@ -1,6 +1,8 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
-#include <blocks/kernel/model/FreeContacts.hpp>
+#include <blocks/kernel/laws/JointLaw.hpp>
+#include <blocks/kernel/model/ContactList.hpp>
+#include <blocks/kernel/model/ContactMemory.hpp>
 #include <blocks/kernel/model/LawColumns.hpp>
 #include <blocks/kernel/model/Motion.hpp>
 #include <blocks/kernel/model/RigidBlock.hpp>

@@ -1,32 +1,16 @@
 // yade-blocks, GPL-2.0-or-later
 #pragma once
 #include <algorithm>
-#include <blocks/kernel/model/BlockAssembly.hpp>
+#include <blocks/kernel/model/JointEdges.hpp>
 
 /// What becomes of joints that have broken, and of the corners that they held.
 namespace blocks {
-
-/// A broken joint stays one until its edges have moved by this share of their common length. Up to there a free contact says the same: it blends its ends over
-/// as much (see EdgeShape::rounding).
-constexpr Real staysFor = 0.02;
 
 /// Whether neither contact point of a joint is bonded any more.
 inline bool isBroken(const BlockAssembly& a, int joint)
 {
 	auto bonded = [](Joint status) { return status == Joint::intact || status == Joint::softening; };
 	return !bonded(a.state.status[2 * joint]) && !bonded(a.state.status[2 * joint + 1]);
-}
-
-/// Whether the contact points of a joint have moved on, by these openings and slips.
-inline bool hasMovedOn(const BlockAssembly& a, int joint, std::array<Real, 2> opening, std::array<Real, 2> slip)
-{
-	Real farthest = 0;
-	for (int k : { 0, 1 }) {
-		if (!a.joints.inSituOpening.empty()) // opened and slid without displacement
-			opening[k] -= a.joints.inSituOpening[joint][k], slip[k] -= a.joints.inSituSlip[joint][k];
-		farthest = std::max({ farthest, std::abs(opening[k]), std::abs(slip[k]) });
-	}
-	return farthest * a.thickness > staysFor * 2 * a.joints.segments[joint].area;
 }
 
 /// Whether a joint is asked in every step whether it is to be released.
