@@ -44,7 +44,6 @@ namespace {
 		return quoted.str();
 	}
 
-	string labelOf(const BlockModel& model, int block) { return model.materialLabels[model.assembly.mesh.blockMaterial[block]]; }
 }
 
 void BlockCrackRecorder::action()
@@ -96,8 +95,8 @@ void BlockCrackRecorder::look(const BlockModel& model)
 		const auto& g     = a.joints.segments[points[e] / 2];
 		const auto  frame = blocks::frameOf(a, points[e] / 2);
 		file << steps[e] << ' ' << times[e] << ' ' << positions[e].x() << ' ' << positions[e].y() << ' ' << frame.nx << ' ' << frame.ny << ' '
-		     << nameOf(modes[e]) << ' ' << model.firstBody + g.block[0] << ' ' << model.firstBody + g.block[1] << ' ' << labelOf(model, g.block[0])
-		     << ' ' << labelOf(model, g.block[1]) << ' ' << damages[e] << ' ' << columnOf(a.joints.called(points[e] / 2)) << '\n';
+		     << nameOf(modes[e]) << ' ' << model.firstBody + g.block[0] << ' ' << model.firstBody + g.block[1] << ' ' << model.labelOf(g.block[0])
+		     << ' ' << model.labelOf(g.block[1]) << ' ' << damages[e] << ' ' << columnOf(a.joints.called(points[e] / 2)) << '\n';
 	}
 	addLines(fileName, file.str(), std::ios::app);
 }
@@ -116,7 +115,7 @@ py::list BlockCrackRecorder::events() const
 		event["mode"]      = nameOf(modes[e]);
 		event["point"]     = points[e];
 		event["ids"]       = py::make_tuple(model.firstBody + g.block[0], model.firstBody + g.block[1]);
-		event["materials"] = py::make_tuple(labelOf(model, g.block[0]), labelOf(model, g.block[1]));
+		event["materials"] = py::make_tuple(model.labelOf(g.block[0]), model.labelOf(g.block[1]));
 		event["damage"]    = damages[e];
 		event["name"]      = model.assembly.joints.called(points[e] / 2);
 		list.append(event);

@@ -54,6 +54,8 @@ public:
 
 	/// A material of O.materials, by its label; its index in the assembly.
 	int materialIndex(const std::string& label);
+	/// The label of a block's material.
+	const std::string& labelOf(int block) const { return materialLabels[assembly.mesh.blockMaterial[block]]; }
 
 	/// Whether this is the scene's model; no search.
 	bool isIn(const Scene*) const;

@@ -69,9 +69,8 @@ string BlockModel::withoutJoint(int contact) const
 {
 	const blocks::FreeContact& c = assembly.state.contacts[contact];
 	if (c.joint.kn > 0 || c.active.empty()) return "";
-	const string first = materialLabels[assembly.mesh.blockMaterial[c.block[0]]], second = materialLabels[assembly.mesh.blockMaterial[c.block[1]]];
-	return "there is " + noJointFor(first, second) + ", whose blocks " + std::to_string(c.block[0]) + " and " + std::to_string(c.block[1])
-		+ " touch and would pass through each other";
+	return "there is " + noJointFor(labelOf(c.block[0]), labelOf(c.block[1])) + ", whose blocks " + std::to_string(c.block[0]) + " and "
+		+ std::to_string(c.block[1]) + " touch and would pass through each other";
 }
 
 void BlockModel::requireProperties()

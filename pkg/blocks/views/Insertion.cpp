@@ -50,7 +50,7 @@ void BlockModel::insert(bool interactions)
 		shape->model        = self;
 		shape->index        = i;
 		body->shape         = shape;
-		const string& label = materialLabels[assembly.mesh.blockMaterial[i]];
+		const string& label = labelOf(i);
 		for (const auto& material : scene->materials)
 			if (material->label == label) body->material = material;
 		const bool isRigid = rigid < assembly.state.rigid.size() && assembly.state.rigid[rigid].block == i;

@@ -109,23 +109,7 @@ namespace {
 			changed = true;
 		}
 		if (changed) sortContacts(a);
-		std::vector<std::array<int, 2>>    keys;
-		std::vector<std::vector<EdgePair>> edges;
-		for (const auto& key : newNeighbours(a, moved)) {
-			FreeContact candidate;
-			candidate.block = key;
-			detectEdges(a, candidate);
-			if (candidate.edges.empty()) continue; // near, but no edges that could touch
-			keys.push_back(key);
-			edges.push_back(std::move(candidate.edges));
-			changed = true;
-		}
-		makeContacts(a, keys);
-		for (size_t i = 0; i < keys.size(); ++i) {
-			FreeContact& made = a.state.contacts[contactOf(a, keys[i][0], keys[i][1])];
-			made.edges        = std::move(edges[i]);
-			forgetActive(made);
-		}
+		changed |= !makeNeighbours(a, newNeighbours(a, moved)).empty();
 		placeForces(a);
 		if (changed) ++f.version;
 	}

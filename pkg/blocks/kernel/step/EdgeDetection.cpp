@@ -77,4 +77,27 @@ void detectEdges(BlockAssembly& a, FreeContact& contact)
 	forgetActive(contact);
 }
 
+std::vector<int> makeNeighbours(BlockAssembly& a, const std::vector<std::array<int, 2>>& pairs)
+{
+	std::vector<std::array<int, 2>>    near;
+	std::vector<std::vector<EdgePair>> edges;
+	for (const auto& pair : pairs) {
+		FreeContact candidate;
+		candidate.block = pair;
+		detectEdges(a, candidate);
+		if (candidate.edges.empty()) continue;
+		near.push_back(pair);
+		edges.push_back(std::move(candidate.edges));
+	}
+	makeContacts(a, near);
+	std::vector<int> made;
+	for (size_t i = 0; i < near.size(); ++i) {
+		made.push_back(contactOf(a, near[i][0], near[i][1]));
+		FreeContact& contact = a.state.contacts[made.back()];
+		contact.edges        = std::move(edges[i]);
+		forgetActive(contact);
+	}
+	return made;
+}
+
 } // namespace blocks

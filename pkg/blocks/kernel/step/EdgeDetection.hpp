@@ -14,4 +14,7 @@ std::vector<std::array<int, 2>> edgesOfJoints(const BlockAssembly&, const std::a
 /// Looks for the edge pairs of a contact; those that it had keep their slip.
 void detectEdges(BlockAssembly&, FreeContact&);
 
+/// Contacts of those pairs of blocks [sorted, without a contact] that have edges which can touch soon. Which contacts they are.
+std::vector<int> makeNeighbours(BlockAssembly&, const std::vector<std::array<int, 2>>& pairs);
+
 } // namespace blocks

@@ -198,31 +198,19 @@ void loosen(BlockAssembly& a, Real dt)
 	}
 	f.loosening.clear();
 	followAll(a);
-	std::vector<std::array<int, 2>>    keys;
-	std::vector<std::vector<EdgePair>> edges;
-	for (const auto& key : mayMeet) {
+	std::vector<std::array<int, 2>> without; // pairs with joints get a contact when one of these is released
+	for (const auto& key : mayMeet)
 		if (const int known = contactOf(a, key[0], key[1]); known >= 0)
 			for (EdgePair* e : detectMore(a, a.state.contacts[known]))
 				lowerToTouch(a, *e, dt);
-		else if (pairOf(a, key) < 0) { // pairs with joints get a contact when one of these is released
-			FreeContact candidate;
-			candidate.block = key;
-			detectEdges(a, candidate);
-			if (candidate.edges.empty()) continue;
-			keys.push_back(key);
-			edges.push_back(std::move(candidate.edges));
-		}
-	}
-	makeContacts(a, keys);
-	for (size_t i = 0; i < keys.size(); ++i) {
-		FreeContact& made = a.state.contacts[contactOf(a, keys[i][0], keys[i][1])];
-		made.edges        = std::move(edges[i]);
-		for (EdgePair& e : made.edges)
+		else if (pairOf(a, key) < 0)
+			without.push_back(key);
+	const std::vector<int> made = makeNeighbours(a, without);
+	for (int contact : made)
+		for (EdgePair& e : a.state.contacts[contact].edges)
 			lowerToTouch(a, e, dt);
-		forgetActive(made);
-	}
 	placeForces(a);
-	if (!keys.empty()) ++f.version;
+	if (!made.empty()) ++f.version;
 }
 
 void releaseBroken(BlockAssembly& a, Real dt, bool account)
