@@ -5,7 +5,7 @@
 #   narrow      without the loops for AVX2: the plugin must give the same golden fingerprints
 #   address     sanitizers for addresses and undefined behaviour
 #   thread      the sanitizer for threads, on what runs in parallel
-# Without KIND: all of them. Each is built in a folder of its own, build/check-KIND.
+# Without KIND: all of them. Each is a preset of .github/CMakePresets.json and is built in a folder of its own, build/check-KIND.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 kinds=()
@@ -22,33 +22,20 @@ done
 scripts/setup.sh --tests
 [ -v HOME ] || export HOME=~ # YADE does not start without
 
-build() { # KIND TARGET OPTION ...
-	local folder=build/check-$1 target=$2
-	shift 2
-	cmake -S . -B "$folder" -G Ninja "$@" > /dev/null
-	cmake --build "$folder" -j "$(nproc)" --target "$target"
-}
+ln -sfn .github/CMakePresets.json CMakePresets.json # where CMake looks for it
 
 for kind in "${kinds[@]}"; do
 	echo "== $kind"
+	cmake --preset "$kind" > /dev/null
+	cmake --build --preset "$kind" -j "$(nproc)"
 	case $kind in
-	strict)
-		build strict all -DBLOCKS_STRICT=ON
-		;;
-	assertions)
-		build assertions kernel_tests -DBLOCKS_STRICT=ON -DCMAKE_BUILD_TYPE=Checked -DCMAKE_CXX_FLAGS_CHECKED="-O1 -g1 -D_GLIBCXX_ASSERTIONS"
-		build/check-assertions/tests/kernel_tests --gtest_brief=1 "$@"
+	assertions | address)
+		"build/check-$kind/tests/kernel_tests" --gtest_brief=1 "$@"
 		;;
 	narrow)
-		build narrow yadeblocks -DBLOCKS_WIDE=OFF
 		ctest --test-dir build/check-narrow -R '^yade.test_(step|threads)$' --output-on-failure
 		;;
-	address)
-		build address kernel_tests -DCMAKE_BUILD_TYPE=Checked -DCMAKE_CXX_FLAGS_CHECKED="-O1" -DBLOCKS_WIDE=OFF -DBLOCKS_SANITIZE=address,undefined
-		build/check-address/tests/kernel_tests --gtest_brief=1 "$@"
-		;;
 	thread)
-		build thread kernel_tests -DCMAKE_BUILD_TYPE=Checked -DCMAKE_CXX_FLAGS_CHECKED="-O1" -DBLOCKS_WIDE=OFF -DBLOCKS_SANITIZE=thread
 		# GNU's OpenMP synchronises where the sanitizer cannot see it: what runs between its barriers is reported although it is in order.
 		TSAN_OPTIONS="ignore_noninstrumented_modules=1 ${TSAN_OPTIONS:-}" build/check-thread/tests/kernel_tests --gtest_brief=1 \
 			--gtest_filter="${GTEST_FILTER:-*Thread*}" "$@"
