@@ -93,3 +93,19 @@ TEST(PointsOnEdges, areInsertedInOrder)
 	EXPECT_THROW(withPointsOnEdges(triangle, {}, -1), std::invalid_argument);
 	EXPECT_THROW(withPointsOnEdges(triangle, {}, std::nan("")), std::invalid_argument);
 }
+
+TEST(PointsOnEdges, makeNeighboursConform)
+{
+	TessellationOptions options;
+	options.size       = 0.003;
+	const Cells mortar = tessellate({ rectangle(0, 0, 0.2, 0.01), {} }, options);
+	const Ring  unit   = rectangle(0, 0.01, 0.2, 0.06);
+	const Ring  fitted = withPointsOnEdges(unit, mortar.vertices, 1e-9);
+	size_t      shared = 0;
+	for (const Vec2& v : mortar.vertices)
+		if (v.y() == 0.01) {
+			++shared;
+			EXPECT_NE(std::find(fitted.begin(), fitted.end(), v), fitted.end());
+		}
+	EXPECT_EQ(fitted.size(), shared + 2); // its two corners at the top
+}

@@ -139,18 +139,4 @@ Ring ringOf(const Cells& cells, size_t index)
 	return ring;
 }
 
-std::vector<int> boundaryVertices(const Cells& cells)
-{
-	std::vector<std::pair<int, int>> sides;
-	for (const auto& ring : cells.cells)
-		for (size_t k = 0, n = ring.size(); k < n; ++k)
-			sides.push_back({ ring[k], ring[(k + 1) % n] });
-	std::sort(sides.begin(), sides.end());
-	std::vector<int> out;
-	for (const auto& [a, b] : sides)
-		if (!std::binary_search(sides.begin(), sides.end(), std::make_pair(b, a))) out.push_back(a); // each outline vertex begins one such side
-	out.erase(std::unique(out.begin(), out.end()), out.end());
-	return out;
-}
-
 } // namespace blocks

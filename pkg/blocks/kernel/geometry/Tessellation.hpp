@@ -44,9 +44,6 @@ struct Cells {
 /// Throws std::logic_error if the cells' areas do not add up to the region's.
 Cells tessellate(const Polygon& region, const TessellationOptions& options);
 
-/// Vertices on the region's outline (outer ring and holes), ascending.
-std::vector<int> boundaryVertices(const Cells& cells);
-
 /// Cell `index` as coordinates.
 Ring ringOf(const Cells& cells, size_t index);
 
