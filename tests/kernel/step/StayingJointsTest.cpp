@@ -10,9 +10,9 @@ constexpr Real width = 0.4; // of the upper block [m]
 
 JointParams rubbing()
 {
-	JointParams p    = elasticJoint(1e9, 4e8);
-	p.cohesion       = 100; // it held little when it broke: a hundredth of that is nothing
-	p.tanPhiResidual = 0.5;
+	JointParams p = elasticJoint(1e9, 4e8);
+	p.cohesion = p.tension = 100; // it held little when it broke: a hundredth of that is nothing
+	p.tanPhiResidual       = 0.5;
 	return p;
 }
 
