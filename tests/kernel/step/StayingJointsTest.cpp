@@ -26,6 +26,8 @@ BlockAssembly upperOnLower(const JointParams& joint, bool scaled = true, Joint s
 		a.state.inertia[n] = (scaled ? 2 : 1) * a.mesh.mass[n];
 	a.state.status[0] = a.state.status[1] = status;
 	moveBlock(a, 1, { 0, -1e-6 });
+	updateKinematics(a, allJoints(a)); // it knows what it bears before anybody releases it
+	advanceStresses(a, allJoints(a), Brittle {});
 	return a;
 }
 
