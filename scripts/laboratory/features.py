@@ -8,7 +8,8 @@ from laboratory.instructions import Feature
 features = {
 	'general contact': Feature(
 		'FreeContact FreeContacts ContactList ContactSearch Contacts ContactResults ContactViews BlockContacts EdgeContact EdgeContactLaw '
-		'EdgeColumns EdgeShapes EdgeBatch EdgeDetection JointCorners RaisedCorners Rests Release Paths Tunnelling',
+		'EdgeColumns EdgeShapes EdgeBatch EdgeDetection JointCorners JointEdges RaisedCorners Rests RestColumns CloseRests Waking '
+		'Release Paths Odometer ContactMemory Tunnelling',
 		r'[cC]ontact(?! ?[pP])|[rR]eleased|\bgone\b|[oO]dometer|\bfollow\b|fastest' # contact points are those of joints
 	),
 	'rigid blocks': Feature('RigidBodies RigidBlocks RigidBlock', r'\b[rR]igid'),

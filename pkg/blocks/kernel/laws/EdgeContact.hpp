@@ -20,6 +20,9 @@
 /// X the distance from the corner to the far end of the overlap, beta the angle of the material there. h is 1 up to q = 0.04, 0 from q = 6.
 namespace blocks {
 
+/// rho of a vertex, as a fraction of the shorter of its two edges.
+constexpr Real roundingFraction = 0.02;
+
 /// What does not change about a pair of edges. Corners in the order a0, a1, b0, b1.
 struct EdgeShape {
 	std::array<Real, 4> sharpness;   ///< 1/tan^2(beta/2); 0 where the outline is straight or bends inward [-]

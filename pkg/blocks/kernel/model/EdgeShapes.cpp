@@ -5,12 +5,6 @@
 #include <limits>
 
 namespace blocks {
-namespace {
-
-	/// rho of a vertex, as a fraction of the shorter of its two edges.
-	constexpr Real roundingFraction = 0.02;
-
-} // namespace
 
 void computeShapes(BlockAssembly& a)
 {

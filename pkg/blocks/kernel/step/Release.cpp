@@ -31,9 +31,8 @@ namespace {
 
 	Release releaseOf(const BlockAssembly& a, int joint)
 	{
-		const JointParams& p      = a.joints.of(joint);
-		auto               broken = [&](int i) { return a.state.status[i] != Joint::intact && a.state.status[i] != Joint::softening; };
-		const int          ends   = broken(2 * joint) + broken(2 * joint + 1);
+		const JointParams& p    = a.joints.of(joint);
+		const int          ends = brokenEnds(a, joint);
 		if (a.joints.softens(joint)) {
 			if (ends == 0 || hasCap(a, joint)) return Release::whenTold;
 			if (edgesPassed(a, joint)) return Release::now; // a fragment turns about an end that still holds, or has slid away from its edge

@@ -6,11 +6,11 @@
 /// What becomes of joints that have broken, and of the corners that they held.
 namespace blocks {
 
-/// Whether neither contact point of a joint is bonded any more.
-inline bool isBroken(const BlockAssembly& a, int joint)
+/// How many of a joint's contact points are not bonded any more.
+inline int brokenEnds(const BlockAssembly& a, int joint)
 {
-	auto bonded = [](Joint status) { return status == Joint::intact || status == Joint::softening; };
-	return !bonded(a.state.status[2 * joint]) && !bonded(a.state.status[2 * joint + 1]);
+	auto isBroken = [](Joint status) { return status != Joint::intact && status != Joint::softening; };
+	return isBroken(a.state.status[2 * joint]) + isBroken(a.state.status[2 * joint + 1]);
 }
 
 /// Whether a joint is asked in every step whether it is to be released.
@@ -22,7 +22,7 @@ inline bool hasCap(const BlockAssembly& a, int joint) { return a.joints.anyCap &
 /// Whether these openings and slips are news for a joint: it is to be asked, and nobody does yet.
 inline bool goesFree(const BlockAssembly& a, int joint, std::array<Real, 2> opening, std::array<Real, 2> slip)
 {
-	return isBroken(a, joint) && hasMovedOn(a, joint, opening, slip) && !isWaiting(a, joint) && !hasCap(a, joint);
+	return brokenEnds(a, joint) == 2 && hasMovedOn(a, joint, opening, slip) && !isWaiting(a, joint) && !hasCap(a, joint);
 }
 
 /// Takes note of a joint that is to be released, or lets go of the corners at its ends.
